@@ -1,0 +1,55 @@
+// The one block of memory that the frame loop lives in: sized and taken at start, never grown.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <new>
+#include <span>
+
+#include "kernels/base/image_view.h"
+
+namespace lakshya {
+
+// A bump allocator. Build a user's layout function twice: once with a measuring arena (default constructed: hands
+// out null pointers and adds up), once with a real one of the measured size.
+class Arena {
+ public:
+  static constexpr std::size_t kAlignment = 64;  // a cache line, and any vector register
+
+  Arena() = default;
+  explicit Arena(std::size_t bytes)
+      : memory_(static_cast<std::byte*>(::operator new (bytes, std::align_val_t{kAlignment}))), capacity_(bytes) {}
+
+  // Zeroed elements, aligned to kAlignment. A real arena that is too small throws std::bad_alloc: a layout that
+  // takes more than it measured is a programming error, found at start.
+  template <class T>
+  std::span<T> take(std::size_t count) {
+    const std::size_t bytes = (count * sizeof(T) + kAlignment - 1) / kAlignment * kAlignment;
+    const std::size_t begin = used_;
+    used_ += bytes;
+    if (memory_ == nullptr) return {};
+    if (used_ > capacity_) throw std::bad_alloc();
+    T* first = reinterpret_cast<T*>(memory_.get() + begin);
+    std::uninitialized_value_construct_n(first, count);
+    return {first, count};
+  }
+
+  template <class T>
+  ImageView<T> take_image(int width, int height) {
+    const auto pixels = take<T>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    return {pixels.data(), width, height};
+  }
+
+  std::size_t used() const { return used_; }
+
+ private:
+  struct Release {
+    void operator()(std::byte* p) const { ::operator delete (p, std::align_val_t{kAlignment}); }
+  };
+  std::unique_ptr<std::byte, Release> memory_;
+  std::size_t capacity_ = 0;
+  std::size_t used_ = 0;
+};
+
+}  // namespace lakshya

@@ -1,0 +1,61 @@
+// Private to the calibration readers: an OpenCV YAML file as named numbers and matrices.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/core/calibration_readers.h"
+
+namespace lakshya {
+
+// A matrix as the file states it; a flat list has no shape of its own.
+struct CalibrationTable {
+  int rows = 0;
+  int cols = 0;
+  bool flat = false;
+  std::vector<double> values;
+
+  bool is_vector() const { return flat || rows == 1 || cols == 1 || values.empty(); }
+  bool has_shape(int r, int c) const {
+    if (values.size() != static_cast<std::size_t>(r) * static_cast<std::size_t>(c)) return false;
+    return flat || (rows == r && cols == c) || (is_vector() && (r == 1 || c == 1));
+  }
+};
+
+// Every accessor throws InputError when the key is missing or holds something else; the constructor also where a
+// key is given twice, and YAML::Exception where the text is no YAML.
+class CalibrationYaml {
+ public:
+  CalibrationYaml(const std::string& text, const std::string& source);
+
+  CalibrationKey key(const std::string& name) const { return {source_, name}; }
+  bool has(const std::string& name) const { return nodes_.contains(name); }
+  double number(const std::string& name) const;
+
+  // An !!opencv-matrix, a flat list or a list of rows, of at most 64 x 64 numbers.
+  CalibrationTable table(const std::string& name) const;
+
+  template <int kRows, int kCols>
+  Eigen::Matrix<double, kRows, kCols> matrix(const std::string& name) const {
+    const CalibrationTable t = table(name);
+    require_shape(name, t, kRows, kCols);
+    Eigen::Matrix<double, kRows, kCols> m;
+    for (int i = 0; i < kRows * kCols; ++i)
+      m(i / kCols, i % kCols) = t.values[static_cast<std::size_t>(i)];
+    return m;
+  }
+
+ private:
+  const YAML::Node& at(const std::string& name) const;
+  void require_shape(const std::string& name, const CalibrationTable& table, int rows, int cols) const;
+
+  const std::string& source_;
+  std::map<std::string, YAML::Node> nodes_;
+};
+
+}  // namespace lakshya

@@ -1,0 +1,72 @@
+#include "app/core/geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lakshya {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+}  // namespace
+
+double max_disparity_px(const MatcherConfig& matcher) {
+  return matcher.min_disparity + matcher.disparities;
+}
+
+GridGeometry grid_geometry(const GridConfig& grid) {
+  return {grid.rows, grid.cols, static_cast<std::int32_t>(std::lround(grid.cell_m * 1000))};
+}
+
+PruneGeometry prune_geometry(const VehicleConfig& config, const RectifiedGeometry& camera) {
+  PruneGeometry g;
+  g.focal_px = camera.focal_px;
+  g.baseline_m = camera.baseline_m;
+  g.center_u = camera.cx_left;
+  g.center_v = camera.cy;
+  g.height_m = config.camera.height_m;
+  g.pitch = config.camera.pitch_deg * kDegree;
+  g.roll = config.camera.roll_deg * kDegree;
+  g.yaw = config.camera.yaw_deg * kDegree;
+  g.forward_m = config.camera.forward_m;
+  g.left_m = config.camera.left_m;
+  g.max_depth_m = config.prune.max_depth_m;
+  g.clearance_m = config.prune.clearance_m;
+  g.floor_tolerance_m = config.prune.floor_tolerance_m;
+  g.disparity_sigma_px = config.prune.disparity_sigma_px;
+  g.pitch_sigma = config.prune.pitch_sigma_deg * kDegree;
+  g.sigma_factor = config.prune.sigma_factor;
+  g.max_disparity_px = max_disparity_px(config.matcher);
+  return g;
+}
+
+ScoreGeometry score_geometry(const VehicleConfig& config, const RectifiedGeometry& camera) {
+  ScoreGeometry g;
+  g.focal_px = camera.focal_px;
+  g.baseline_m = camera.baseline_m;
+  g.height_m = config.camera.height_m;
+  g.pitch = config.camera.pitch_deg * kDegree;
+  g.yaw = config.camera.yaw_deg * kDegree;
+  g.forward_m = config.camera.forward_m;
+  g.left_m = config.camera.left_m;
+  g.disparity_sigma_px = config.prune.disparity_sigma_px;
+  g.max_disparity_px = max_disparity_px(config.matcher);
+  g.min_count = config.score.min_count;
+  g.density = config.score.density;
+  g.reference_height_m = config.score.reference_height_m;
+  g.floor_density = config.score.floor_density;
+  return g;
+}
+
+double blind_zone_m(const VehicleConfig& config, const RectifiedGeometry& camera) {
+  const double down =
+      config.camera.pitch_deg * kDegree + std::atan((camera.height - 1 - camera.cy) / camera.focal_px);
+  const double sideways = std::atan(0.5 * camera.width / camera.focal_px);
+  // A camera that looks over the floor altogether sees none of it within its range.
+  const double floor = down > 0 ? config.camera.height_m / std::tan(down) : config.prune.max_depth_m;
+  const double seen = std::min(floor, config.prune.max_depth_m) / std::cos(sideways) + config.camera.forward_m;
+  return std::max(config.planner.blind_zone_m, seen + 2 * config.grid.cell_m);
+}
+
+}  // namespace lakshya

@@ -1,0 +1,24 @@
+// From configuration and rectified camera to the parameters of the kernels: degrees to radians, and which number
+// goes where.
+#pragma once
+
+#include "app/core/calibration.h"
+#include "app/core/vehicle_config.h"
+#include "kernels/base/nav_grid.h"
+#include "kernels/prune/prune.h"
+#include "kernels/score/score.h"
+
+namespace lakshya {
+
+// Largest stored disparity that the matcher searches, px.
+double max_disparity_px(const MatcherConfig& matcher);
+
+GridGeometry grid_geometry(const GridConfig& grid);
+PruneGeometry prune_geometry(const VehicleConfig& config, const RectifiedGeometry& camera);
+ScoreGeometry score_geometry(const VehicleConfig& config, const RectifiedGeometry& camera);
+
+// Distance from the turning centre within which the camera cannot show the floor: where the image's bottom row
+// meets it, towards the image's corners, and two cells more. Never less than planner.blind_zone_m.
+double blind_zone_m(const VehicleConfig& config, const RectifiedGeometry& camera);
+
+}  // namespace lakshya

@@ -1,0 +1,32 @@
+// Which implementation of each kernel the pipeline calls. A backend is one table; a new one is an addition.
+#pragma once
+
+#include "kernels/census/census.h"
+#include "kernels/grid_bin/grid_bin.h"
+#include "kernels/prune/prune.h"
+#include "kernels/rectify/rectify.h"
+#include "kernels/score/score.h"
+#include "kernels/sgm/sgm.h"
+#include "kernels/support/support.h"
+#include "kernels/texture/texture.h"
+
+namespace lakshya {
+
+struct KernelTable {
+  decltype(&rectify_ref) rectify;
+  decltype(&census_ref) census;
+  decltype(&texture_ref) texture;
+  decltype(&sgm_ref) sgm;
+  decltype(&support_ref) support;
+  decltype(&reproject_prune_row_ref) reproject_prune_row;
+  decltype(&bin_obstacles_ref) bin_obstacles;
+  decltype(&bin_ground_ref) bin_ground;
+  decltype(&score_ref) score;
+};
+
+inline constexpr KernelTable kReferenceKernels = {
+    rectify_ref,       census_ref,     texture_ref, sgm_ref, support_ref, reproject_prune_row_ref,
+    bin_obstacles_ref, bin_ground_ref, score_ref,
+};
+
+}  // namespace lakshya

@@ -1,0 +1,50 @@
+// Rectified pair to disparity: descriptors, semi-global matching band by band, local support.
+#pragma once
+
+#include <span>
+
+#include "app/core/arena.h"
+#include "app/core/kernel_table.h"
+#include "app/core/vehicle_config.h"
+
+namespace lakshya {
+
+// The stored search range (docs/contract.md section 2) as what the kernels want: raw u_left - u_right and its
+// offset.
+struct StoredRange {
+  int first_raw = 0;  // u_left - u_right of the first candidate
+  int offset16 = 0;   // doffs in 1/16 px
+};
+StoredRange stored_range(int min_disparity, double doffs);
+
+class Matcher {
+ public:
+  // Takes what it needs from the arena; call once to measure and once for real (see arena.h).
+  Matcher(const MatcherConfig& config, double doffs, int width, int height, const KernelTable& kernels,
+          Arena& arena);
+
+  // left, right: rectified, of the size given above. The result stays valid until the next call.
+  // Bands run on OpenMP's threads; the result does not depend on how many there are.
+  Status match(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
+               ImageView<const std::int16_t>& disparity);
+
+ private:
+  Rows band(int index) const;
+  Status match_band(int index, const ImageView<const std::uint8_t>& left);
+
+  const KernelTable* kernels_;
+  int width_;
+  int height_;
+  int bands_;
+  int texture_threshold_;
+  SgmParams sgm_;
+  SupportParams support_;
+  ImageView<std::uint32_t> census_left_;
+  ImageView<std::uint32_t> census_right_;
+  ImageView<std::uint8_t> textured_;
+  ImageView<std::int16_t> matched_;
+  ImageView<std::int16_t> supported_;
+  std::span<std::byte> scratch_;  // bands_ equal parts
+};
+
+}  // namespace lakshya

@@ -1,0 +1,179 @@
+#include "app/core/pipeline.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/core/geometry.h"
+#include "app/core/input_error.h"
+
+namespace lakshya {
+namespace {
+
+std::size_t size(int n) {
+  return static_cast<std::size_t>(n);
+}
+
+NavGrid take_grid(const GridGeometry& g, Arena& arena) {
+  return {g,
+          arena.take_image<std::uint32_t>(g.cols, g.rows),
+          arena.take_image<std::int64_t>(g.cols, g.rows),
+          arena.take_image<std::uint32_t>(g.cols, g.rows),
+          arena.take_image<std::uint32_t>(g.cols, g.rows),
+          arena.take_image<std::uint8_t>(g.cols, g.rows)};
+}
+
+void require(Status status, const char* what) {
+  if (status != Status::ok) {
+    throw InputError(what, std::string("camera and configuration do not go together: ") + to_string(status) +
+                               " (check the camera mount, the search range and the map size)");
+  }
+}
+
+// Runs `step`, stores how long it took, and passes its status on.
+template <class Step>
+Status timed(const Clock& clock, Stage stage, FrameResult& result, Step&& step) {
+  const Nanoseconds start = clock.now();
+  const Status status = step();
+  result.stage_time[size(static_cast<int>(stage))] = clock.now() - start;
+  return status;
+}
+
+}  // namespace
+
+const char* to_string(Stage stage) {
+  constexpr const char* kNames[kStages] = {"rectify", "match", "project_and_bin", "score", "plan"};
+  return kNames[static_cast<int>(stage)];
+}
+
+Pipeline::Buffers::Buffers(const VehicleConfig& config, const RectifiedGeometry& camera, const KernelTable& kernels,
+                           Arena& arena)
+    : left(arena.take_image<std::uint8_t>(camera.width, camera.height)),
+      right(arena.take_image<std::uint8_t>(camera.width, camera.height)),
+      matcher(config.matcher, camera.doffs(), camera.width, camera.height, kernels, arena),
+      classes(arena.take_image<PixelClass>(camera.width, camera.height)),
+      depth_table(arena.take<std::int32_t>(prune_table_entries(max_disparity_px(config.matcher)))),
+      height_table(arena.take<std::int32_t>(prune_table_entries(max_disparity_px(config.matcher)))),
+      obstacles(arena.take<ObstaclePoint>(size(config.matcher.bands) * size(camera.width))),
+      floor(arena.take<GroundStrip>(size(config.matcher.bands) * size(camera.width))),
+      below(arena.take<GroundStrip>(size(config.matcher.bands) * size(camera.width))),
+      counts(arena.take<PixelCounts>(size(config.matcher.bands))),
+      grid(take_grid(grid_geometry(config.grid), arena)),
+      thresholds(arena.take<CellThresholds>(size(config.grid.rows) * size(config.grid.cols))),
+      polar_table(arena.take<PolarEntry>(polar_table_entries(grid_geometry(config.grid)))) {}
+
+Pipeline::Pipeline(const VehicleConfig& config, const StereoCalibration& calibration, int width, int height,
+                   const KernelTable& kernels, const Clock& clock)
+    : kernels_(&kernels),
+      clock_(&clock),
+      camera_(rectified_geometry(calibration, width, height)),
+      bands_(config.matcher.bands),
+      min_height_mm_(static_cast<std::int32_t>(std::lround(config.score.min_height_m * 1000))),
+      blind_zone_m_(blind_zone_m(config, camera_)),
+      remap_(needs_remap(calibration)) {
+  if (remap_) {
+    const Rectification r =
+        calibration.rectification ? *calibration.rectification : rectify_stereo(calibration, width, height);
+    maps_left_ = make_rectify_maps(calibration.left, r.R1, r.P1, width, height);
+    maps_right_ = make_rectify_maps(calibration.right, r.R2, r.P2, width, height);
+  }
+  Arena measure;
+  (void)Buffers(config, camera_, kernels, measure);
+  arena_ = Arena(measure.used());
+  buffers_ = std::make_unique<Buffers>(config, camera_, kernels, arena_);
+
+  Buffers& b = *buffers_;
+  require(build_prune_model(prune_geometry(config, camera_), b.depth_table, b.height_table, prune_model_), "prune");
+  require(build_score_table(b.grid.geometry, score_geometry(config, camera_), b.thresholds), "score");
+  PlannerParams planner = config.planner;
+  planner.blind_zone_m = blind_zone_m_;
+  require(planner_.configure(planner, config.vehicle, b.grid.geometry, b.polar_table), "planner");
+}
+
+Rows Pipeline::band_rows(int band) const {
+  return {camera_.height * band / bands_, camera_.height * (band + 1) / bands_};
+}
+
+Status Pipeline::rectify(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
+                         FrameResult& result) {
+  if (left.width != camera_.width || left.height != camera_.height || !same_size(left, right)) {
+    return Status::size_mismatch;
+  }
+  result.left = left;
+  result.right = right;
+  if (!remap_) return Status::ok;
+  int worst = 0;
+#pragma omp parallel for schedule(dynamic) reduction(max : worst)
+  for (int i = 0; i < 2 * bands_; ++i) {
+    const bool is_left = i < bands_;
+    const RectifyMaps& maps = is_left ? maps_left_ : maps_right_;
+    const Status status = kernels_->rectify(is_left ? left : right, maps.x.view(), maps.y.view(),
+                                            band_rows(i % bands_), is_left ? buffers_->left : buffers_->right);
+    worst = std::max(worst, static_cast<int>(status));
+  }
+  result.left = buffers_->left;
+  result.right = buffers_->right;
+  return static_cast<Status>(worst);
+}
+
+Status Pipeline::project_band(int band, const ImageView<const std::int16_t>& disparity) {
+  Buffers& b = *buffers_;
+  const std::size_t width = size(camera_.width);
+  PrunedRow row;
+  row.obstacles = b.obstacles.subspan(size(band) * width, width);
+  row.floor = b.floor.subspan(size(band) * width, width);
+  row.below = b.below.subspan(size(band) * width, width);
+  const Rows rows = band_rows(band);
+  for (int v = rows.begin; v < rows.end; ++v) {
+    const Status statuses[] = {
+        kernels_->reproject_prune_row(prune_model_, v, {disparity.row(v), width}, row, b.counts[size(band)],
+                                      {b.classes.row(v), width}),
+        kernels_->bin_obstacles(row.obstacles.first(row.obstacle_count), b.grid),
+        kernels_->bin_ground(row.floor.first(row.floor_count), b.grid, b.grid.floor_count),
+        kernels_->bin_ground(row.below.first(row.below_count), b.grid, b.grid.below_count),
+    };
+    for (const Status status : statuses) {
+      if (status != Status::ok) return status;
+    }
+  }
+  return Status::ok;
+}
+
+Status Pipeline::project_and_bin(FrameResult& result) {
+  Buffers& b = *buffers_;
+  const Status cleared = clear_grid(b.grid);
+  if (cleared != Status::ok) return cleared;
+  std::fill(b.counts.begin(), b.counts.end(), PixelCounts{});
+  int worst = 0;
+#pragma omp parallel for schedule(dynamic) reduction(max : worst)
+  for (int band = 0; band < bands_; ++band) {
+    worst = std::max(worst, static_cast<int>(project_band(band, result.disparity)));
+  }
+  result.pixels = {};
+  for (const PixelCounts& counts : b.counts) {
+    for (int i = 0; i < kPixelClasses; ++i)
+      result.pixels.by_class[i] += counts.by_class[i];
+    for (int i = 0; i < kNoDisparityReasons; ++i)
+      result.pixels.by_reason[i] += counts.by_reason[i];
+  }
+  result.classes = b.classes;
+  result.grid = b.grid;
+  return static_cast<Status>(worst);
+}
+
+Status Pipeline::process(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
+                         const PlanInput& input, FrameResult& result) {
+  Status status = timed(*clock_, Stage::rectify, result, [&] { return rectify(left, right, result); });
+  if (status != Status::ok) return status;
+  status = timed(*clock_, Stage::match, result,
+                 [&] { return buffers_->matcher.match(result.left, result.right, result.disparity); });
+  if (status != Status::ok) return status;
+  status = timed(*clock_, Stage::project_and_bin, result, [&] { return project_and_bin(result); });
+  if (status != Status::ok) return status;
+  status = timed(*clock_, Stage::score, result,
+                 [&] { return kernels_->score(buffers_->thresholds, min_height_mm_, result.grid); });
+  if (status != Status::ok) return status;
+  return timed(*clock_, Stage::plan, result,
+               [&] { return planner_.plan(result.grid.type, input, plan_state_, result.plan); });
+}
+
+}  // namespace lakshya

@@ -1,0 +1,89 @@
+// One frame from raw pair to steering command: rectify, match, prune and bin, score, plan.
+// Everything is allocated when the pipeline is made; process() allocates nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "app/core/arena.h"
+#include "app/core/calibration.h"
+#include "app/core/kernel_table.h"
+#include "app/core/matcher.h"
+#include "app/core/rectification.h"
+#include "app/core/vehicle_config.h"
+#include "app/nav/planner.h"
+#include "hal/clock.h"
+
+namespace lakshya {
+
+enum class Stage : std::uint8_t { rectify, match, project_and_bin, score, plan };
+inline constexpr int kStages = 5;
+const char* to_string(Stage stage);
+
+// What one frame gave. Views stay valid until the next process() of the same pipeline.
+struct FrameResult {
+  ImageView<const std::uint8_t> left;  // rectified
+  ImageView<const std::uint8_t> right;
+  ImageView<const std::int16_t> disparity;  // stored, 1/16 px or NoDisparity
+  ImageView<const PixelClass> classes;
+  PixelCounts pixels;
+  NavGrid grid;
+  Plan plan;
+  std::array<Nanoseconds, kStages> stage_time{};
+};
+
+class Pipeline {
+ public:
+  // width, height: of the raw images, already compared with the calibration's (require_image_size).
+  // Throws InputError for a camera and configuration that do not go together.
+  Pipeline(const VehicleConfig& config, const StereoCalibration& calibration, int width, int height,
+           const KernelTable& kernels, const Clock& clock);
+
+  // left, right: raw images of the size given at the start.
+  Status process(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, const PlanInput& input,
+                 FrameResult& result);
+
+  const RectifiedGeometry& camera() const { return camera_; }
+  const PruneModel& prune_model() const { return prune_model_; }
+  double blind_zone() const { return blind_zone_m_; }
+  std::size_t arena_bytes() const { return arena_.used(); }
+
+ private:
+  // What lives in the arena, in the order in which it is taken.
+  struct Buffers {
+    Buffers(const VehicleConfig& config, const RectifiedGeometry& camera, const KernelTable& kernels, Arena& arena);
+    ImageView<std::uint8_t> left, right;
+    Matcher matcher;
+    ImageView<PixelClass> classes;
+    std::span<std::int32_t> depth_table, height_table;
+    std::span<ObstaclePoint> obstacles;  // one row of each for every band
+    std::span<GroundStrip> floor, below;
+    std::span<PixelCounts> counts;
+    NavGrid grid;
+    std::span<CellThresholds> thresholds;
+    std::span<PolarEntry> polar_table;
+  };
+
+  Status rectify(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, FrameResult& result);
+  Status project_and_bin(FrameResult& result);
+  Status project_band(int band, const ImageView<const std::int16_t>& disparity);
+  Rows band_rows(int band) const;
+
+  const KernelTable* kernels_;
+  const Clock* clock_;
+  RectifiedGeometry camera_;
+  int bands_;
+  std::int32_t min_height_mm_;
+  double blind_zone_m_;
+  bool remap_;
+  RectifyMaps maps_left_, maps_right_;
+  Arena arena_;
+  std::unique_ptr<Buffers> buffers_;
+  PruneModel prune_model_;
+  Planner planner_;
+  PlanState plan_state_;
+};
+
+}  // namespace lakshya

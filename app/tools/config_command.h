@@ -1,0 +1,11 @@
+// `lakshya config`: prints the configuration.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace lakshya {
+
+// Adds the subcommand. Its callback writes to std::cout and throws InputError for a refused configuration.
+void add_config_command(CLI::App& app);
+
+}  // namespace lakshya

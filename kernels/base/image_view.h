@@ -1,0 +1,47 @@
+// The one image type that crosses public headers: a pointer with its shape, owning nothing.
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+
+namespace lakshya {
+
+// Row-major image. `stride` counts elements (not bytes) from one row to the next, stride >= width.
+template <class T>
+struct ImageView {
+  T* data = nullptr;
+  int width = 0;
+  int height = 0;
+  std::ptrdiff_t stride = 0;
+
+  constexpr ImageView() = default;
+  constexpr ImageView(T* d, int w, int h, std::ptrdiff_t s) : data(d), width(w), height(h), stride(s) {}
+  constexpr ImageView(T* d, int w, int h) : ImageView(d, w, h, w) {}
+
+  // A view of T reads as a view of const T.
+  template <class U>
+  requires(std::is_same_v<const U, T>) constexpr ImageView(
+      const ImageView<U>& o)  // NOLINT(google-explicit-constructor)
+      : data(o.data), width(o.width), height(o.height), stride(o.stride) {}
+
+  constexpr T* row(int v) const { return data + static_cast<std::ptrdiff_t>(v) * stride; }
+  constexpr T& at(int u, int v) const { return row(v)[u]; }
+};
+
+template <class A, class B>
+constexpr bool same_size(const ImageView<A>& a, const ImageView<B>& b) {
+  return a.width == b.width && a.height == b.height;
+}
+
+// Half-open range of image rows [begin, end): kernels work on row ranges, threads belong to the pipeline.
+struct Rows {
+  int begin = 0;
+  int end = 0;
+};
+
+template <class T>
+constexpr bool rows_inside(const Rows& r, const ImageView<T>& image) {
+  return 0 <= r.begin && r.begin <= r.end && r.end <= image.height;
+}
+
+}  // namespace lakshya

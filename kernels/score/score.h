@@ -1,0 +1,54 @@
+// Cell scoring: from counts to obstacle, unoccupied or unknown. docs/contract.md section 4.
+//
+// A surface must show a density of points that falls with distance (the paper's condition on average point
+// density):
+//   n_min(z)   = max(n_abs, rho f^2 cell h_ref / z^2 * min(1, cell / (2.5 sigma_z))),  sigma_z = z^2 sigma_d / (f
+//   B) n_floor(z) = max(1, rho_f f^2 cell^2 H / z^3);  n_below likewise, at least n_abs
+// In this order:
+//   count >= n_min and mean height > h_min             obstacle
+//   below_count >= n_below and > floor_count           obstacle (drop-off)
+//   count >= n_min, or floor_count >= n_floor          unoccupied
+//   otherwise                                          unknown: unknown is never free
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "kernels/base/nav_grid.h"
+#include "kernels/base/status.h"
+
+namespace lakshya {
+
+// Least counts of one cell.
+struct CellThresholds {
+  std::uint32_t points = 1;
+  std::uint32_t floor = 1;
+  std::uint32_t below = 1;
+};
+
+// Metres, radians and pixels; camera mount as in prune.h.
+struct ScoreGeometry {
+  double focal_px = 0;
+  double baseline_m = 0;
+  double height_m = 0;
+  double pitch = 0;
+  double yaw = 0;
+  double forward_m = 0;
+  double left_m = 0;
+  double disparity_sigma_px = 0.25;
+  double max_disparity_px = 64;      // nothing is seen nearer than f B / max_disparity
+  int min_count = 4;                 // n_abs
+  double density = 0.15;             // rho
+  double reference_height_m = 0.15;  // h_ref
+  double floor_density = 0.10;       // rho_f
+};
+
+// thresholds[row * cols + col] for each cell, z = camera depth of the cell's centre on the ground, not nearer than
+// the camera can see. Rounded up, once. size_mismatch, bad_argument.
+Status build_score_table(const GridGeometry& grid, const ScoreGeometry& geometry,
+                         std::span<CellThresholds> thresholds);
+
+// Writes grid.type from the counts. thresholds: rows * cols. min_height_mm: h_min. size_mismatch, bad_argument.
+Status score_ref(std::span<const CellThresholds> thresholds, std::int32_t min_height_mm, const NavGrid& grid);
+
+}  // namespace lakshya

@@ -1,0 +1,47 @@
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/score/score.h"
+
+namespace lakshya {
+namespace {
+
+std::uint32_t at_least(double expected, double least) {
+  return static_cast<std::uint32_t>(std::ceil(std::min(std::max(expected, least), 1e9)));
+}
+
+CellThresholds thresholds_at(const ScoreGeometry& g, double cell, double z) {
+  const double f2 = g.focal_px * g.focal_px;
+  const double sigma_z = z * z * g.disparity_sigma_px / (g.focal_px * g.baseline_m);
+  const double smear = sigma_z > 0 ? std::min(1.0, cell / (2.5 * sigma_z)) : 1.0;
+  const double points = g.density * f2 * cell * g.reference_height_m / (z * z) * smear;
+  const double ground = g.floor_density * f2 * cell * cell * g.height_m / (z * z * z);
+  const double least = g.min_count;
+  return {at_least(points, least), at_least(ground, 1.0), at_least(ground, least)};
+}
+
+}  // namespace
+
+Status build_score_table(const GridGeometry& grid, const ScoreGeometry& g, std::span<CellThresholds> thresholds) {
+  if (thresholds.size() != static_cast<std::size_t>(grid.rows) * static_cast<std::size_t>(grid.cols)) {
+    return Status::size_mismatch;
+  }
+  if (!(g.focal_px > 0 && g.baseline_m > 0 && g.height_m > 0 && g.max_disparity_px > 0) || g.min_count < 1) {
+    return Status::bad_argument;
+  }
+  const double cell = grid.cell_mm / 1000.0;
+  const double nearest = g.focal_px * g.baseline_m / g.max_disparity_px;
+  std::size_t i = 0;
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int col = 0; col < grid.cols; ++col) {
+      const double forward = (row + 0.5) * cell - g.forward_m;
+      const double left = (grid.cols / 2 - col - 0.5) * cell - g.left_m;
+      const double ahead = std::cos(g.yaw) * forward + std::sin(g.yaw) * left;
+      const double z = std::cos(g.pitch) * ahead + std::sin(g.pitch) * g.height_m;
+      thresholds[i++] = thresholds_at(g, cell, std::max(z, nearest));
+    }
+  }
+  return Status::ok;
+}
+
+}  // namespace lakshya

@@ -1,0 +1,46 @@
+// Semi-global matching in one top-to-bottom pass over a band of rows.
+//
+//   L_r(p,d) = C(p,d) + min(L_r(p-r,d), L_r(p-r,d-1) + P1, L_r(p-r,d+1) + P1, min_k L_r(p-r,k) + P2)
+//              - min_k L_r(p-r,k)                                                     S = sum over r of L_r
+//
+// with C the Hamming distance of census codes, uint8 saturating, disparities outside the range 255, and L_r = C
+// where p-r has no descriptor. Five paths come from the left, right, top, top-left and top-right; three from left,
+// right, top: the paths that a single pass can see, so only a few rows x disparities are ever stored and the
+// scratch does not depend on the image's height. Each row then goes through select.h. Source: H. Hirschmueller,
+// "Stereo Processing by Semiglobal Matching and Mutual Information", PAMI 30(2), 2008, eq. 13; a single pass with
+// the paths that it can see: OpenCV's StereoSGBM and S. Gehrig et al., ICVS 2009.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "kernels/base/image_view.h"
+#include "kernels/base/status.h"
+#include "kernels/hamming/hamming.h"
+#include "kernels/select/select.h"
+
+namespace lakshya {
+
+struct SgmParams {
+  SearchRange range;
+  SelectParams select;
+  int paths = 5;         // 5 or 3
+  int p1 = 8;            // 0 <= p1 <= p2
+  int p2 = 40;           // p2 <= 200: C + P2 stays below 255
+  int warmup_rows = 16;  // rows above the band that start its top paths, >= 0
+};
+
+// Bytes of scratch for one band; independent of the height.
+std::size_t sgm_scratch_bytes(int width, int disparities);
+
+// left, right: census codes of the whole images; textured: flags of the left image; disparity: int16, 1/16 px or a
+// NoDisparity code, written on `rows` only. All the same size. `descriptor_rows` of the images have
+// descriptors; the others become kNotSearched and no path crosses them. `scratch` aligned to 64 bytes.
+// The result depends on the rows of the band and on warmup_rows, never on threads.
+// size_mismatch, bad_argument, scratch_too_small.
+Status sgm_ref(ImageView<const std::uint32_t> left, ImageView<const std::uint32_t> right,
+               ImageView<const std::uint8_t> textured, Rows descriptor_rows, const SgmParams& params, Rows rows,
+               std::span<std::byte> scratch, ImageView<std::int16_t> disparity);
+
+}  // namespace lakshya

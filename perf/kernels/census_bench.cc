@@ -1,0 +1,19 @@
+#include "kernels/census/census.h"
+#include "perf/bench_image.h"
+
+namespace lakshya {
+namespace {
+
+void census_reference(benchmark::State& state) {
+  const auto image = bench::random_image<std::uint8_t>(0, 255);
+  Image<std::uint32_t> codes(bench::kWidth, bench::kHeight);
+  for (auto _ : state) {
+    bench::require_ok(census_ref(image.view(), {0, bench::kHeight}, codes.view()));
+    benchmark::DoNotOptimize(codes.view().data);
+  }
+  bench::report_per(state, "per_pixel", bench::kPixels);
+}
+BENCHMARK(census_reference)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace lakshya

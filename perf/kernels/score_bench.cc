@@ -1,0 +1,25 @@
+#include <vector>
+
+#include "kernels/score/score.h"
+#include "perf/bench_image.h"
+#include "tests/support/test_grid.h"
+
+namespace lakshya {
+namespace {
+
+void score_reference(benchmark::State& state) {
+  test::TestGrid grid(200, 200);
+  ScoreGeometry geometry;
+  geometry.focal_px = 420;
+  geometry.baseline_m = 0.12;
+  geometry.height_m = 0.6;
+  std::vector<CellThresholds> thresholds(200 * 200);
+  bench::require_ok(build_score_table(grid.view().geometry, geometry, thresholds));
+  for (auto _ : state)
+    bench::require_ok(score_ref(thresholds, 70, grid.view()));
+  bench::report_per(state, "per_cell", 200.0 * 200.0);
+}
+BENCHMARK(score_reference)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace lakshya

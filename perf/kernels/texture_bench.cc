@@ -1,0 +1,19 @@
+#include "kernels/texture/texture.h"
+#include "perf/bench_image.h"
+
+namespace lakshya {
+namespace {
+
+void texture_reference(benchmark::State& state) {
+  const auto image = bench::random_image<std::uint8_t>(0, 255);
+  Image<std::uint8_t> textured(bench::kWidth, bench::kHeight);
+  for (auto _ : state) {
+    bench::require_ok(texture_ref(image.view(), 100, {0, bench::kHeight}, textured.view()));
+    benchmark::DoNotOptimize(textured.view().data);
+  }
+  bench::report_per(state, "per_pixel", bench::kPixels);
+}
+BENCHMARK(texture_reference)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace lakshya

@@ -1,0 +1,164 @@
+// The entry script in a made-up checkout, with stand-ins for the commands that would change the machine.
+#include <gtest/gtest.h>
+#include <stdlib.h>  // mkdtemp
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Result {
+  int status = -1;
+  std::string output;  // stdout and stderr together
+};
+
+class DevScript : public testing::Test {
+ protected:
+  void SetUp() override {
+    const char* root = std::getenv("LAKSHYA_ROOT");
+    if (root == nullptr) GTEST_SKIP() << "LAKSHYA_ROOT is not set: no script to run";
+    std::string name = (fs::temp_directory_path() / "lakshya-dev-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+    fs::create_directories(folder_ / "stand-ins");
+    fs::copy_file(fs::path(root) / "dev", folder_ / "dev");
+    stand_in("apt-get", "echo \"$@\" >>'" + calls() + "'");
+    stand_in("id", "echo 0");
+    stand_in("dpkg-query", "for a; do case $a in -* | *{*) ;; *) echo \"installed $a\" ;; esac; done");
+  }
+
+  void TearDown() override {
+    if (!folder_.empty()) fs::remove_all(folder_);
+  }
+
+  void stand_in(const std::string& name, const std::string& body) const {
+    const fs::path file = folder_ / "stand-ins" / name;
+    std::ofstream(file) << "#!/bin/sh\n" << body << "\n";
+    fs::permissions(file, fs::perms::owner_all);
+  }
+
+  void add_file(const std::string& path) const {
+    fs::create_directories((folder_ / path).parent_path());
+    std::ofstream(folder_ / path) << "x";
+  }
+
+  // From another folder than the checkout.
+  Result dev(const std::string& arguments, const std::string& variable = "LAKSHYA_NO_DEPS=0") const {
+    const std::string command = "cd / && env " + variable + " PATH='" + (folder_ / "stand-ins").string() +
+                                "':\"$PATH\" '" + (folder_ / "dev").string() + "' " + arguments +
+                                " 2>&1 </dev/null";
+    Result result;
+    FILE* pipe = popen(command.c_str(), "r");
+    if (pipe == nullptr) return result;
+    std::array<char, 4096> buffer{};
+    while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr)
+      result.output += buffer.data();
+    result.status = WEXITSTATUS(pclose(pipe));
+    return result;
+  }
+
+  std::string calls() const { return (folder_ / "calls").string(); }
+
+  std::string apt_calls() const {
+    std::ifstream file(calls());
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  static bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  }
+
+  static bool is_debian_12() { return std::system("grep -qs 'VERSION=\"12 (bookworm)\"' /etc/os-release") == 0; }
+
+  fs::path folder_;
+};
+
+TEST_F(DevScript, HelpNamesEveryCommand) {
+  const Result help = dev("help");
+  EXPECT_EQ(help.status, 0);
+  for (const char* command : {"demo", "test", "build", "bench", "data", "format", "tidy", "deps"}) {
+    EXPECT_TRUE(contains(help.output, std::string("\n  ") + command)) << command;
+  }
+  EXPECT_EQ(dev("").output, help.output);
+}
+
+TEST_F(DevScript, RefusesWhatItDoesNotKnow) {
+  add_file("tests/kernels/census_test.cc");
+  add_file("tests/layering_test.cc");
+  EXPECT_EQ(dev("demonstrate").status, 2);
+  EXPECT_EQ(dev("test --fast").status, 2);
+  EXPECT_EQ(dev("test --preset").status, 2);
+  EXPECT_EQ(dev("test census layering").status, 2);
+  EXPECT_EQ(dev("format --quietly").status, 2);
+  for (const char* module : {"nothing", "cen", "kernels.cens", "kernels_census"}) {
+    const Result result = dev(std::string("test ") + module);
+    EXPECT_EQ(result.status, 2) << module;
+    EXPECT_TRUE(contains(result.output, "\nhouse.layering\nkernels.census\n")) << result.output;
+  }
+}
+
+TEST_F(DevScript, BuildsAndRunsOnlyTheModule) {
+  add_file("tests/app/core/census_test.cc");
+  add_file("tests/kernels/census_test.cc");
+  add_file("tests/kernels/sgm_test.cc");
+  stand_in("cmake", "echo cmake \"$@\"");
+  stand_in("ctest", "echo ctest \"$@\"");
+  if (!is_debian_12()) GTEST_SKIP() << "only Debian 12 is set up by the script";
+  const Result one = dev("test --preset asan kernels.census");
+  EXPECT_EQ(one.status, 0);
+  EXPECT_TRUE(contains(one.output, "cmake --preset asan\n")) << one.output;
+  EXPECT_TRUE(contains(one.output, "cmake --build --preset asan --target kernels_census_test\n")) << one.output;
+  EXPECT_TRUE(contains(one.output, "--tests-regex ^(kernels\\.census)$\n")) << one.output;
+  const Result two = dev("test census");
+  EXPECT_TRUE(contains(two.output, "--target app_core_census_test kernels_census_test\n")) << two.output;
+  EXPECT_TRUE(contains(two.output, "--tests-regex ^(app\\.core\\.census|kernels\\.census)$\n")) << two.output;
+}
+
+TEST_F(DevScript, InstallsNothingWhenNothingIsMissing) {
+  if (!is_debian_12()) GTEST_SKIP() << "only Debian 12 is set up by the script";
+  EXPECT_EQ(dev("deps").status, 0);
+  EXPECT_EQ(apt_calls(), "");
+}
+
+TEST_F(DevScript, InstallsWhatIsMissing) {
+  if (!is_debian_12()) GTEST_SKIP() << "only Debian 12 is set up by the script";
+  stand_in("dpkg-query", "for a; do [ \"$a\" = cmake ] || echo \"installed $a\"; done; echo 'config-files cmake'");
+  EXPECT_EQ(dev("deps").status, 0);
+  const std::string calls = apt_calls();
+  EXPECT_TRUE(contains(calls, " update\n")) << calls;
+  EXPECT_TRUE(contains(calls, " install -y --no-install-recommends cmake\n")) << calls;
+}
+
+TEST_F(DevScript, SaysWhatToRunWithoutTheRight) {
+  if (!is_debian_12()) GTEST_SKIP() << "only Debian 12 is set up by the script";
+  stand_in("dpkg-query", "exit 1");
+  stand_in("id", "echo 1000");
+  stand_in("sudo", "exit 1");
+  const Result result = dev("deps");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_TRUE(contains(result.output, "apt-get update && apt-get install -y --no-install-recommends g++ cmake "));
+  EXPECT_EQ(apt_calls(), "");
+}
+
+TEST_F(DevScript, ChecksNothingWhenToldSo) {
+  stand_in("dpkg-query", "exit 1");
+  EXPECT_EQ(dev("deps", "LAKSHYA_NO_DEPS=1").status, 0);
+  EXPECT_EQ(apt_calls(), "");
+}
+
+TEST_F(DevScript, FailedDownloadLeavesNothing) {
+  if (fs::exists("/usr/share/doc/opencv-doc/examples/data")) GTEST_SKIP() << "opencv-doc is installed";
+  stand_in("apt-get", "exit 100");
+  EXPECT_EQ(dev("data").status, 1);
+  EXPECT_TRUE(fs::is_empty(folder_ / "data"));
+}
+
+}  // namespace

@@ -1,0 +1,114 @@
+#include "kernels/census/census.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/test_image.h"
+
+namespace lakshya {
+namespace {
+
+using test::PaddedImage;
+
+constexpr std::uint32_t kAllBits = (1U << kCensusBits) - 1;
+
+std::uint32_t code_of_center(const PaddedImage<std::uint8_t>& image) {
+  PaddedImage<std::uint32_t> codes(9, 7);
+  EXPECT_EQ(census_ref(image.view(), {0, 7}, codes.view()), Status::ok);
+  return codes.view().at(4, 3);
+}
+
+TEST(Census, FlatImageSetsEveryBit) {
+  EXPECT_EQ(code_of_center(PaddedImage<std::uint8_t>(9, 7, 3, 50)), kAllBits);
+}
+
+TEST(Census, BrighteningDownwardsClearsTheUpperRows) {
+  PaddedImage<std::uint8_t> image(9, 7);
+  for (int v = 0; v < 7; ++v) {
+    for (int u = 0; u < 9; ++u)
+      image.view().at(u, v) = static_cast<std::uint8_t>(10 * v);
+  }
+  // Rows -3..-1 (27 bits) are darker than their opposites; within row 0 all are equal: bits 27..30 stay.
+  EXPECT_EQ(code_of_center(image), 0xFU << 27);
+}
+
+TEST(Census, OnePixelMovesOneBit) {
+  for (int k = 0; k < kCensusBits; ++k) {
+    PaddedImage<std::uint8_t> image(9, 7, 3, 100);
+    const int v = k / 9;
+    const int u = k % 9;
+    image.view().at(u, v) = 99;  // now smaller than its opposite
+    EXPECT_EQ(code_of_center(image), kAllBits & ~(1U << k)) << "bit " << k;
+    image.view().at(u, v) = 100;
+    image.view().at(8 - u, 6 - v) = 101;
+    EXPECT_EQ(code_of_center(image), kAllBits & ~(1U << k)) << "opposite of bit " << k;
+  }
+}
+
+TEST(Census, TheCentreDoesNotMatter) {
+  PaddedImage<std::uint8_t> image(9, 7, 3, 100);
+  image.view().at(4, 3) = 0;
+  EXPECT_EQ(code_of_center(image), kAllBits);
+}
+
+TEST(Census, UnchangedByGainAndOffset) {
+  std::mt19937 random(2);
+  PaddedImage<std::uint8_t> image(41, 19);
+  test::fill_random(image.view(), random, 0, 100);
+  PaddedImage<std::uint8_t> brighter(41, 19);
+  for (int v = 0; v < 19; ++v) {
+    for (int u = 0; u < 41; ++u) {
+      brighter.view().at(u, v) = static_cast<std::uint8_t>(2 * image.view().at(u, v) + 30);
+    }
+  }
+  PaddedImage<std::uint32_t> a(41, 19);
+  PaddedImage<std::uint32_t> b(41, 19);
+  ASSERT_EQ(census_ref(image.view(), {0, 19}, a.view()), Status::ok);
+  ASSERT_EQ(census_ref(brighter.view(), {0, 19}, b.view()), Status::ok);
+  for (int v = 0; v < 19; ++v) {
+    for (int u = 0; u < 41; ++u)
+      ASSERT_EQ(a.view().at(u, v), b.view().at(u, v));
+  }
+}
+
+TEST(Census, BordersAreZeroAndSmallImagesHaveNoCodes) {
+  for (const int width : {0, 1, 8, 9, 10}) {
+    for (const int height : {0, 1, 6, 7, 8}) {
+      const PaddedImage<std::uint8_t> image(width, height);
+      PaddedImage<std::uint32_t> codes(width, height);
+      ASSERT_EQ(census_ref(image.view(), {0, height}, codes.view()), Status::ok);
+      for (int v = 0; v < height; ++v) {
+        for (int u = 0; u < width; ++u) {
+          const bool inside = u >= 4 && u < width - 4 && v >= 3 && v < height - 3;
+          ASSERT_EQ(codes.view().at(u, v), inside ? kAllBits : 0U);
+        }
+      }
+      EXPECT_TRUE(codes.canaries_alive());
+    }
+  }
+}
+
+TEST(Census, RowRangesGiveTheSameAsTheWhole) {
+  std::mt19937 random(3);
+  PaddedImage<std::uint8_t> image(30, 20);
+  test::fill_random(image.view(), random, 0, 255);
+  PaddedImage<std::uint32_t> whole(30, 20);
+  PaddedImage<std::uint32_t> parts(30, 20);
+  ASSERT_EQ(census_ref(image.view(), {0, 20}, whole.view()), Status::ok);
+  ASSERT_EQ(census_ref(image.view(), {0, 7}, parts.view()), Status::ok);
+  ASSERT_EQ(census_ref(image.view(), {7, 20}, parts.view()), Status::ok);
+  for (int v = 0; v < 20; ++v) {
+    for (int u = 0; u < 30; ++u)
+      ASSERT_EQ(parts.view().at(u, v), whole.view().at(u, v));
+  }
+}
+
+TEST(Census, RefusesWrongShapes) {
+  PaddedImage<std::uint8_t> image(9, 7);
+  PaddedImage<std::uint32_t> codes(9, 8);
+  EXPECT_EQ(census_ref(image.view(), {0, 7}, codes.view()), Status::size_mismatch);
+  PaddedImage<std::uint32_t> right(9, 7);
+  EXPECT_EQ(census_ref(image.view(), {0, 8}, right.view()), Status::bad_argument);
+}
+
+}  // namespace
+}  // namespace lakshya

@@ -1,0 +1,70 @@
+#include "kernels/hamming/hamming.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+namespace lakshya {
+namespace {
+
+TEST(Hamming, HandComputedRow) {
+  const std::vector<std::uint32_t> left = {0b0000, 0b0001, 0b0011, 0b0111};
+  const std::vector<std::uint32_t> right = {0b0000, 0b1111, 0b0011, 0x7FFFFFFF};
+  std::vector<std::uint8_t> cost(4 * 16, 99);
+  ASSERT_EQ(hamming_row_ref(left, right, {.first = 0, .disparities = 16, .valid_begin = 0, .valid_end = 4}, cost),
+            Status::ok);
+  const auto at = [&](int u, int d) { return int{cost[static_cast<std::size_t>(16 * u + d)]}; };
+  EXPECT_EQ(at(0, 0), 0);
+  EXPECT_EQ(at(0, 1), kOutsideCost);
+  EXPECT_EQ(at(1, 0), 3);   // 0001 ^ 1111
+  EXPECT_EQ(at(1, 1), 1);   // 0001 ^ 0000
+  EXPECT_EQ(at(3, 0), 28);  // 0111 ^ 31 ones
+  EXPECT_EQ(at(3, 1), 1);
+  EXPECT_EQ(at(3, 2), 1);
+  EXPECT_EQ(at(3, 3), 3);
+  EXPECT_EQ(at(3, 4), kOutsideCost);
+  EXPECT_EQ(at(3, 15), kOutsideCost);
+}
+
+TEST(Hamming, NegativeFirstDisparityLooksToTheRight) {
+  const std::vector<std::uint32_t> left = {1, 1, 1};
+  const std::vector<std::uint32_t> right = {1, 3, 7};
+  std::vector<std::uint8_t> cost(3 * 16);
+  ASSERT_EQ(hamming_row_ref(left, right, {.first = -2, .disparities = 16, .valid_begin = 0, .valid_end = 3}, cost),
+            Status::ok);
+  EXPECT_EQ(cost[0], 2);              // u 0 against u_right 2
+  EXPECT_EQ(cost[1], 1);              // u_right 1
+  EXPECT_EQ(cost[2], 0);              // u_right 0
+  EXPECT_EQ(cost[16], kOutsideCost);  // u 1 against u_right 3
+}
+
+TEST(Hamming, LeavesColumnsWithoutDescriptorsAlone) {
+  const std::vector<std::uint32_t> codes(10, 5);
+  std::vector<std::uint8_t> cost(10 * 16, 99);
+  ASSERT_EQ(hamming_row_ref(codes, codes, {.first = 0, .disparities = 16, .valid_begin = 4, .valid_end = 6}, cost),
+            Status::ok);
+  for (std::size_t i = 0; i < cost.size(); ++i) {
+    const std::size_t u = i / 16;
+    const std::size_t d = i % 16;
+    const int expected = u < 4 || u > 5 ? 99 : (u - d >= 4 && u >= d ? 0 : kOutsideCost);
+    ASSERT_EQ(cost[i], expected) << u << " " << d;
+  }
+}
+
+TEST(Hamming, RefusesWrongArguments) {
+  const std::vector<std::uint32_t> codes(8);
+  std::vector<std::uint8_t> cost(8 * 16);
+  EXPECT_EQ(hamming_row_ref(codes, codes, {.first = 0, .disparities = 8, .valid_begin = 0, .valid_end = 8}, cost),
+            Status::bad_argument);
+  EXPECT_EQ(hamming_row_ref(codes, codes, {.first = 0, .disparities = 16, .valid_begin = 0, .valid_end = 9}, cost),
+            Status::bad_argument);
+  EXPECT_EQ(hamming_row_ref(codes, codes, {.first = 0, .disparities = 32, .valid_begin = 0, .valid_end = 8}, cost),
+            Status::size_mismatch);
+  EXPECT_EQ(hamming_row_ref(codes, std::span(codes).first(7),
+                            {.first = 0, .disparities = 16, .valid_begin = 0, .valid_end = 8}, cost),
+            Status::size_mismatch);
+}
+
+}  // namespace
+}  // namespace lakshya

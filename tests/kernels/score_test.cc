@@ -1,0 +1,127 @@
+#include "kernels/score/score.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "kernels/base/units.h"
+#include "tests/support/test_grid.h"
+
+namespace lakshya {
+namespace {
+
+using test::TestGrid;
+
+struct Counts {
+  std::uint32_t points;
+  std::int64_t height_sum;
+  std::uint32_t floor;
+  std::uint32_t below;
+};
+
+// One cell with thresholds 10 points, 5 floor, 4 below, and h_min 70 mm.
+int type_of(const Counts& c) {
+  TestGrid g(1, 2);
+  const NavGrid v = g.view();
+  v.count.at(0, 0) = c.points;
+  v.height_sum.at(0, 0) = c.height_sum;
+  v.floor_count.at(0, 0) = c.floor;
+  v.below_count.at(0, 0) = c.below;
+  const std::vector<CellThresholds> thresholds(2, CellThresholds{10, 5, 4});
+  EXPECT_EQ(score_ref(thresholds, 70, v), Status::ok);
+  return v.type.at(0, 0);
+}
+
+TEST(Score, EnoughHighPointsAreAnObstacle) {
+  EXPECT_EQ(type_of({10, 701, 0, 0}), kCellObstacle);
+  EXPECT_EQ(type_of({10, 701, 50, 0}), kCellObstacle);  // floor around its foot does not free it
+}
+
+TEST(Score, TooFewPointsAreNotAnObstacle) {
+  EXPECT_EQ(type_of({9, 9000, 0, 0}), kCellUnknown);
+  EXPECT_EQ(type_of({9, 9000, 5, 0}), kCellUnoccupied);
+}
+
+TEST(Score, LowPointsAreUnoccupied) {
+  EXPECT_EQ(type_of({10, 700, 0, 0}), kCellUnoccupied);  // mean exactly h_min
+  EXPECT_EQ(type_of({10, -300, 0, 0}), kCellUnoccupied);
+}
+
+TEST(Score, FloorEvidenceMakesUnoccupied) {
+  EXPECT_EQ(type_of({0, 0, 5, 0}), kCellUnoccupied);
+  EXPECT_EQ(type_of({0, 0, 4, 0}), kCellUnknown);
+  EXPECT_EQ(type_of({0, 0, 0, 0}), kCellUnknown);
+}
+
+TEST(Score, ADropOffIsAnObstacleWhereItOutweighsTheFloor) {
+  EXPECT_EQ(type_of({0, 0, 3, 4}), kCellObstacle);
+  EXPECT_EQ(type_of({10, 100, 3, 4}), kCellObstacle);
+  EXPECT_EQ(type_of({0, 0, 2, 3}), kCellUnknown);
+  EXPECT_EQ(type_of({0, 0, 50, 50}), kCellUnoccupied);
+  EXPECT_EQ(type_of({0, 0, 50, 51}), kCellObstacle);
+}
+
+ScoreGeometry level_camera() {
+  ScoreGeometry g;
+  g.focal_px = 400;
+  g.baseline_m = 0.1;
+  g.height_m = 0.5;
+  g.disparity_sigma_px = 0.25;
+  g.max_disparity_px = 80;  // nothing nearer than 0.5 m
+  g.min_count = 4;
+  g.density = 0.2;
+  g.reference_height_m = 0.15;
+  g.floor_density = 0.1;
+  return g;
+}
+
+CellThresholds threshold(const ScoreGeometry& g, int row, int col) {
+  const GridGeometry grid;
+  std::vector<CellThresholds> table(200 * 200);
+  EXPECT_EQ(build_score_table(grid, g, table), Status::ok);
+  return table[static_cast<std::size_t>(row * 200 + col)];
+}
+
+TEST(ScoreTable, FollowsTheFormula) {
+  // Row 19: z = 1.95 m; sigma_z = 0.02377 m, cell / (2.5 sigma_z) = 1.68 -> 1.
+  // points: 0.2 * 160000 * 0.1 * 0.15 / 3.8025 = 126.2; floor: 0.1 * 160000 * 0.01 * 0.5 / 7.4149 = 10.79.
+  const CellThresholds near = threshold(level_camera(), 19, 100);
+  EXPECT_EQ(near.points, 127U);
+  EXPECT_EQ(near.floor, 11U);
+  EXPECT_EQ(near.below, 11U);
+  // Row 59: z = 5.95 m; sigma_z = 0.2213, factor 0.1808; points 13.56 * 0.1808 = 2.45 -> n_abs; floor 0.38 -> 1.
+  const CellThresholds far = threshold(level_camera(), 59, 100);
+  EXPECT_EQ(far.points, 4U);
+  EXPECT_EQ(far.floor, 1U);
+  EXPECT_EQ(far.below, 4U);
+}
+
+TEST(ScoreTable, NothingIsExpectedNearerThanTheCameraSees) {
+  const ScoreGeometry g = level_camera();
+  EXPECT_EQ(threshold(g, 0, 100).points, threshold(g, 4, 100).points);
+  EXPECT_GT(threshold(g, 4, 100).points, threshold(g, 6, 100).points);
+}
+
+TEST(ScoreTable, FallsWithDistanceAndIsTheSameAcrossALevelRow) {
+  const ScoreGeometry g = level_camera();
+  for (int row = 5; row < 199; row += 7) {
+    ASSERT_GE(threshold(g, row, 30).points, threshold(g, row + 1, 30).points);
+    ASSERT_EQ(threshold(g, row, 0).points, threshold(g, row, 199).points);
+  }
+}
+
+TEST(ScoreTable, RefusesWrongArguments) {
+  std::vector<CellThresholds> table(10);
+  EXPECT_EQ(build_score_table({}, level_camera(), table), Status::size_mismatch);
+  table.resize(200 * 200);
+  ScoreGeometry g = level_camera();
+  g.min_count = 0;
+  EXPECT_EQ(build_score_table({}, g, table), Status::bad_argument);
+  TestGrid grid(10, 10);
+  EXPECT_EQ(score_ref(table, 70, grid.view()), Status::size_mismatch);
+  table.resize(100);
+  EXPECT_EQ(score_ref(table, -1, grid.view()), Status::bad_argument);
+}
+
+}  // namespace
+}  // namespace lakshya
