@@ -59,6 +59,11 @@ ScoreGeometry score_geometry(const VehicleConfig& config, const RectifiedGeometr
   return g;
 }
 
+std::int32_t disparity_of_pitch16(const VehicleConfig& config, const RectifiedGeometry& camera, double pitch_deg) {
+  const double px = camera.focal_px * camera.baseline_m / config.camera.height_m * pitch_deg * kDegree;
+  return static_cast<std::int32_t>(std::min(std::ceil(px * kDisparityScale), double{kGroundReach}));
+}
+
 double blind_zone_m(const VehicleConfig& config, const RectifiedGeometry& camera) {
   const double down =
       config.camera.pitch_deg * kDegree + std::atan((camera.height - 1 - camera.cy) / camera.focal_px);

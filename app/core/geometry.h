@@ -5,6 +5,7 @@
 #include "app/core/calibration.h"
 #include "app/core/vehicle_config.h"
 #include "kernels/base/nav_grid.h"
+#include "kernels/ground/ground.h"
 #include "kernels/prune/prune.h"
 #include "kernels/score/score.h"
 
@@ -16,6 +17,10 @@ double max_disparity_px(const MatcherConfig& matcher);
 GridGeometry grid_geometry(const GridConfig& grid);
 PruneGeometry prune_geometry(const VehicleConfig& config, const RectifiedGeometry& camera);
 ScoreGeometry score_geometry(const VehicleConfig& config, const RectifiedGeometry& camera);
+
+// What a change of pitch does to the floor's disparity, 1/16 px rounded up: (f B / H) * angle; at most
+// kGroundReach.
+std::int32_t disparity_of_pitch16(const VehicleConfig& config, const RectifiedGeometry& camera, double pitch_deg);
 
 // Distance from the turning centre within which the camera cannot show the floor: where the image's bottom row
 // meets it, towards the image's corners, and two cells more. Never less than planner.blind_zone_m.

@@ -3,6 +3,7 @@
 
 #include "kernels/census/census.h"
 #include "kernels/grid_bin/grid_bin.h"
+#include "kernels/ground/ground.h"
 #include "kernels/prune/prune.h"
 #include "kernels/rectify/rectify.h"
 #include "kernels/score/score.h"
@@ -18,6 +19,7 @@ struct KernelTable {
   decltype(&texture_ref) texture;
   decltype(&sgm_ref) sgm;
   decltype(&support_ref) support;
+  decltype(&ground_residuals_row_ref) ground_residuals_row;
   decltype(&reproject_prune_row_ref) reproject_prune_row;
   decltype(&bin_obstacles_ref) bin_obstacles;
   decltype(&bin_ground_ref) bin_ground;
@@ -25,8 +27,16 @@ struct KernelTable {
 };
 
 inline constexpr KernelTable kReferenceKernels = {
-    rectify_ref,       census_ref,     texture_ref, sgm_ref, support_ref, reproject_prune_row_ref,
-    bin_obstacles_ref, bin_ground_ref, score_ref,
+    rectify_ref,
+    census_ref,
+    texture_ref,
+    sgm_ref,
+    support_ref,
+    ground_residuals_row_ref,
+    reproject_prune_row_ref,
+    bin_obstacles_ref,
+    bin_ground_ref,
+    score_ref,
 };
 
 }  // namespace lakshya

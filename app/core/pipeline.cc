@@ -41,7 +41,7 @@ Status timed(const Clock& clock, Stage stage, FrameResult& result, Step&& step) 
 }  // namespace
 
 const char* to_string(Stage stage) {
-  constexpr const char* kNames[kStages] = {"rectify", "match", "project_and_bin", "score", "plan"};
+  constexpr const char* kNames[kStages] = {"rectify", "match", "ground", "project_and_bin", "score", "plan"};
   return kNames[static_cast<int>(stage)];
 }
 
@@ -57,6 +57,7 @@ Pipeline::Buffers::Buffers(const VehicleConfig& config, const RectifiedGeometry&
       floor(arena.take<GroundStrip>(size(config.matcher.bands) * size(camera.width))),
       below(arena.take<GroundStrip>(size(config.matcher.bands) * size(camera.width))),
       counts(arena.take<PixelCounts>(size(config.matcher.bands))),
+      residuals(arena.take<GroundHistogram>(size(config.matcher.bands))),
       grid(take_grid(grid_geometry(config.grid), arena)),
       thresholds(arena.take<CellThresholds>(size(config.grid.rows) * size(config.grid.cols))),
       polar_table(arena.take<PolarEntry>(polar_table_entries(grid_geometry(config.grid)))) {}
@@ -82,7 +83,10 @@ Pipeline::Pipeline(const VehicleConfig& config, const StereoCalibration& calibra
   buffers_ = std::make_unique<Buffers>(config, camera_, kernels, arena_);
 
   Buffers& b = *buffers_;
-  require(build_prune_model(prune_geometry(config, camera_), b.depth_table, b.height_table, prune_model_), "prune");
+  require(build_prune_model(prune_geometry(config, camera_), b.depth_table, b.height_table, mount_model_), "prune");
+  prune_model_ = mount_model_;
+  ground_range16_ = disparity_of_pitch16(config, camera_, config.prune.ground_range_deg);
+  ground_rate16_ = disparity_of_pitch16(config, camera_, config.prune.ground_rate_deg);
   require(build_score_table(b.grid.geometry, score_geometry(config, camera_), b.thresholds), "score");
   PlannerParams planner = config.planner;
   planner.blind_zone_m = blind_zone_m_;
@@ -113,6 +117,32 @@ Status Pipeline::rectify(ImageView<const std::uint8_t> left, ImageView<const std
   result.left = buffers_->left;
   result.right = buffers_->right;
   return static_cast<Status>(worst);
+}
+
+Status Pipeline::find_ground(FrameResult& result) {
+  std::span<GroundHistogram> residuals = buffers_->residuals;
+#pragma omp parallel for schedule(dynamic)
+  for (int band = 0; band < bands_; ++band) {
+    GroundHistogram& h = residuals[size(band)];
+    h.fill(0);
+    const Rows rows = band_rows(band);
+    for (int v = rows.begin; v < rows.end; ++v) {
+      kernels_->ground_residuals_row(mount_model_, v, {result.disparity.row(v), size(camera_.width)}, h);
+    }
+  }
+  for (std::size_t band = 1; band < residuals.size(); ++band) {
+    for (std::size_t i = 0; i < residuals[0].size(); ++i)
+      residuals[0][i] += residuals[band][i];
+  }
+  const std::int64_t pixels = std::int64_t{camera_.width} * camera_.height;
+  std::int32_t offset = ground_offset(residuals[0], ground_range16_, pixels);
+  if (ground_offset16_) {
+    offset = std::clamp(offset, *ground_offset16_ - ground_rate16_, *ground_offset16_ + ground_rate16_);
+  }
+  ground_offset16_ = offset;
+  result.ground_offset16 = offset;
+  prune_model_ = shift_floor(mount_model_, std::int64_t{offset} << (16 - kDisparityBits));
+  return Status::ok;
 }
 
 Status Pipeline::project_band(int band, const ImageView<const std::int16_t>& disparity) {
@@ -166,6 +196,8 @@ Status Pipeline::process(ImageView<const std::uint8_t> left, ImageView<const std
   if (status != Status::ok) return status;
   status = timed(*clock_, Stage::match, result,
                  [&] { return buffers_->matcher.match(result.left, result.right, result.disparity); });
+  if (status != Status::ok) return status;
+  status = timed(*clock_, Stage::ground, result, [&] { return find_ground(result); });
   if (status != Status::ok) return status;
   status = timed(*clock_, Stage::project_and_bin, result, [&] { return project_and_bin(result); });
   if (status != Status::ok) return status;

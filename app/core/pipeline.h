@@ -1,10 +1,11 @@
-// One frame from raw pair to steering command: rectify, match, prune and bin, score, plan.
+// One frame from raw pair to steering command: rectify, match, find the ground, prune and bin, score, plan.
 // Everything is allocated when the pipeline is made; process() allocates nothing.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "app/core/arena.h"
@@ -18,8 +19,8 @@
 
 namespace lakshya {
 
-enum class Stage : std::uint8_t { rectify, match, project_and_bin, score, plan };
-inline constexpr int kStages = 5;
+enum class Stage : std::uint8_t { rectify, match, ground, project_and_bin, score, plan };
+inline constexpr int kStages = 6;
 const char* to_string(Stage stage);
 
 // What one frame gave. Views stay valid until the next process() of the same pipeline.
@@ -28,6 +29,7 @@ struct FrameResult {
   ImageView<const std::uint8_t> right;
   ImageView<const std::int16_t> disparity;  // stored, 1/16 px or NoDisparity
   ImageView<const PixelClass> classes;
+  std::int32_t ground_offset16 = 0;  // the floor's disparity against the mount's plane, 1/16 px (kernels/ground)
   PixelCounts pixels;
   NavGrid grid;
   Plan plan;
@@ -46,6 +48,7 @@ class Pipeline {
                  FrameResult& result);
 
   const RectifiedGeometry& camera() const { return camera_; }
+  // Of the last frame processed.
   const PruneModel& prune_model() const { return prune_model_; }
   double blind_zone() const { return blind_zone_m_; }
   std::size_t arena_bytes() const { return arena_.used(); }
@@ -61,12 +64,14 @@ class Pipeline {
     std::span<ObstaclePoint> obstacles;  // one row of each for every band
     std::span<GroundStrip> floor, below;
     std::span<PixelCounts> counts;
+    std::span<GroundHistogram> residuals;
     NavGrid grid;
     std::span<CellThresholds> thresholds;
     std::span<PolarEntry> polar_table;
   };
 
   Status rectify(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, FrameResult& result);
+  Status find_ground(FrameResult& result);
   Status project_and_bin(FrameResult& result);
   Status project_band(int band, const ImageView<const std::int16_t>& disparity);
   Rows band_rows(int band) const;
@@ -81,7 +86,11 @@ class Pipeline {
   RectifyMaps maps_left_, maps_right_;
   Arena arena_;
   std::unique_ptr<Buffers> buffers_;
-  PruneModel prune_model_;
+  PruneModel mount_model_;
+  PruneModel prune_model_;  // the mount's, with the floor where this frame shows it
+  std::int32_t ground_range16_ = 0;
+  std::int32_t ground_rate16_ = 0;
+  std::optional<std::int32_t> ground_offset16_;  // of the last frame
   Planner planner_;
   PlanState plan_state_;
 };

@@ -43,6 +43,8 @@ struct PruneConfig {
   double disparity_sigma_px = 0.25;  // sigma_d
   double pitch_sigma_deg = 0.2;      // sigma_pitch
   double sigma_factor = 3.0;         // k
+  double ground_range_deg = 1.5;
+  double ground_rate_deg = 0.3;
 };
 
 struct GridConfig {

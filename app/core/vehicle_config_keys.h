@@ -144,6 +144,12 @@ void visit_prune_keys(Prune& c, Visitor& v) {
     Range{0, 10});
   v(Key{"prune.sigma_factor", "", "Standard deviations by which a point must leave the floor (k)"}, c.sigma_factor,
     Range{0, 10});
+  v(Key{"prune.ground_range_deg", "deg",
+        "How far the floor seen in the image may correct the mount's pitch, either way; 0: the mount's plane as it "
+        "is"},
+    c.ground_range_deg, Range{0, 5});
+  v(Key{"prune.ground_rate_deg", "deg", "By how much that correction may change from one frame to the next"},
+    c.ground_rate_deg, Range{0, 5});
 }
 
 template <class Grid, class Visitor>

@@ -14,6 +14,7 @@
 #include "app/core/input_error.h"
 #include "app/core/pipeline.h"
 #include "app/core/vehicle_config_file.h"
+#include "app/core/vehicle_config_text.h"
 #include "app/tools/disparity_file.h"
 #include "app/tools/map_file.h"
 #include "app/tools/options.h"
@@ -50,7 +51,7 @@ int round_up_to_16(int n) {
 std::vector<std::string> all_sets(const ProcessOptions& o) {
   std::vector<std::string> sets = o.config.sets;
   const auto add = [&](const char* key, const auto& value) {
-    if (value) sets.push_back(std::string(key) + "=" + nlohmann::json(*value).dump());
+    if (value) sets.push_back(std::string(key) + "=" + number_text(*value));
   };
   if (!o.matcher.empty()) sets.push_back("matcher.name=" + o.matcher);
   if (o.disparities) sets.push_back("matcher.disparities=" + std::to_string(round_up_to_16(*o.disparities)));
@@ -101,6 +102,12 @@ void write_results(const ProcessOptions& o, const VehicleConfig& config, const P
   folder.commit("points.ply");
 }
 
+// The change of pitch that the ground estimate stands for (kernels/ground).
+double ground_pitch_deg(const FrameResult& frame, const VehicleConfig& config, const RectifiedGeometry& camera) {
+  const double px = static_cast<double>(frame.ground_offset16) / kDisparityScale;
+  return px * config.camera.height_m / (camera.focal_px * camera.baseline_m) * 180 / std::numbers::pi;
+}
+
 void process(const ProcessOptions& o) {
   const VehicleConfig config = load_vehicle_config(o.config.config, o.config.profile, all_sets(o));
   const StereoCalibration calibration = read_calibration(o.calibration, config.camera.calibration_unit_m);
@@ -122,6 +129,8 @@ void process(const ProcessOptions& o) {
     json["focal_px"] = pipeline.camera().focal_px;
     json["baseline_m"] = pipeline.camera().baseline_m;
     json["doffs"] = pipeline.camera().doffs();
+    json["ground_offset_px"] = static_cast<double>(frame.ground_offset16) / kDisparityScale;
+    json["ground_pitch_deg"] = ground_pitch_deg(frame, config, pipeline.camera());
     json["blind_zone_m"] = pipeline.blind_zone();
     json["arena_bytes"] = pipeline.arena_bytes();
     json["out"] = o.out;

@@ -7,7 +7,8 @@
 namespace lakshya {
 
 // Largest integer <= a / b, for b > 0.
-constexpr std::int32_t floor_divide(std::int32_t a, std::int32_t b) {
+template <class Int>
+constexpr Int floor_divide(Int a, Int b) {
   return a / b - (a % b < 0 ? 1 : 0);
 }
 

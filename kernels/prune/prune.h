@@ -53,8 +53,12 @@ enum class CeilingTest : std::uint8_t { above_camera, at_camera, below_camera };
 
 // Everything rounded once, in integers; the tables belong to the caller.
 struct PruneModel {
-  std::int64_t min_disparity = 0;         // Q16 px: f B / z_max
-  std::int64_t max_floor_disparity = 0;   // Q16 px: the largest disparity searched
+  std::int64_t min_disparity = 0;        // Q16 px: f B / z_max
+  std::int64_t max_floor_disparity = 0;  // Q16 px: the largest disparity searched
+  // What each scaled bound multiplies d_f with, Q16; for shift_floor.
+  std::int64_t drop_scale = 0;
+  std::int64_t floor_scale = 0;
+  std::int64_t ceiling_scale = 0;
   Affine floor;                           // d_f, Q16 px
   Affine drop_relative, drop_absolute;    // d_f H/(H+tau), d_f - k s
   Affine floor_relative, floor_absolute;  // d_f H/(H-tau), d_f + k s
@@ -76,6 +80,10 @@ std::size_t prune_table_entries(double max_disparity_px);
 // scratch_too_small: a table is too short.
 Status build_prune_model(const PruneGeometry& geometry, std::span<std::int32_t> depth_table,
                          std::span<std::int32_t> height_table, PruneModel& model);
+
+// The same model with the floor's disparity larger by `offset` (Q16 px) everywhere, as a small change of pitch
+// makes it (kernels/ground). Directions of reprojection stay the mount's.
+PruneModel shift_floor(const PruneModel& mount, std::int64_t offset);
 
 // Body frame, millimetres, origin below the turning centre.
 struct ObstaclePoint {

@@ -33,6 +33,7 @@ void set_ceiling(const PruneGeometry& g, PruneModel& model) {
   } else {
     model.ceiling_test = above > 0 ? CeilingTest::above_camera : CeilingTest::below_camera;
     model.ceiling = floor_bound(g, -g.height_m / above, 0.0);
+    model.ceiling_scale = round_half_up(-g.height_m / above * kQ16);
   }
 }
 
@@ -86,6 +87,8 @@ Status build_prune_model(const PruneGeometry& g, std::span<std::int32_t> depth_t
   model.drop_absolute = floor_bound(g, 1.0, -margin);
   model.floor_relative = floor_bound(g, g.height_m / (g.height_m - g.floor_tolerance_m), 0.0);
   model.floor_absolute = floor_bound(g, 1.0, margin);
+  model.drop_scale = round_half_up(g.height_m / (g.height_m + g.floor_tolerance_m) * kQ16);
+  model.floor_scale = round_half_up(g.height_m / (g.height_m - g.floor_tolerance_m) * kQ16);
   set_ceiling(g, model);
   set_directions(g, model);
   model.forward_mm = static_cast<std::int32_t>(round_half_up(g.forward_m * 1000));
@@ -104,6 +107,18 @@ Status build_prune_model(const PruneGeometry& g, std::span<std::int32_t> depth_t
   model.depth_mm = depth_table.first(entries);
   model.height_scale = height_table.first(entries);
   return Status::ok;
+}
+
+PruneModel shift_floor(const PruneModel& mount, std::int64_t offset) {
+  const auto scaled = [offset](std::int64_t scale) { return (offset * scale + (1 << 15)) >> 16; };
+  PruneModel m = mount;
+  m.floor.constant += offset;
+  m.drop_relative.constant += scaled(mount.drop_scale);
+  m.drop_absolute.constant += offset;
+  m.floor_relative.constant += scaled(mount.floor_scale);
+  m.floor_absolute.constant += offset;
+  m.ceiling.constant += scaled(mount.ceiling_scale);
+  return m;
 }
 
 }  // namespace lakshya

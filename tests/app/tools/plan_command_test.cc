@@ -1,11 +1,7 @@
 #include "app/tools/plan_command.h"
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -13,6 +9,7 @@
 #include <vector>
 
 #include "app/core/input_error.h"
+#include "tests/support/run_command.h"
 #include "tests/support/temp_folder.h"
 
 namespace lakshya {
@@ -164,38 +161,19 @@ TEST_F(PlanCommandTest, WrongUseIsAParseError) {
   EXPECT_THROW(run(free_, {"--target", "0", "--unknown-option"}), CLI::ParseError);
 }
 
-// The command as a user starts it.
-struct Outcome {
-  int exit_code = -1;
-  std::string out;
-};
-
-Outcome shell(const std::string& command) {
-  Outcome outcome;
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return outcome;
-  char buffer[4096];
-  while (const std::size_t got = std::fread(buffer, 1, sizeof buffer, pipe))
-    outcome.out.append(buffer, got);
-  const int status = pclose(pipe);
-  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
-}
-
 TEST_F(PlanCommandTest, TheBinaryPlansAndSaysWhatIsWrong) {
-  const char* binary = std::getenv("LAKSHYA_BIN");
-  if (binary == nullptr || !std::filesystem::exists(binary)) GTEST_SKIP() << "LAKSHYA_BIN names no lakshya";
-  const std::string lakshya = "'" + std::string(binary) + "' plan ";
-  const Outcome planned = shell(lakshya + "--json --target -20 --grid " + free_);
+  const std::string lakshya = lakshya_binary();
+  if (lakshya.empty()) GTEST_SKIP() << "LAKSHYA_BIN names no lakshya";
+  const Outcome planned = run_command({lakshya, "plan", "--json", "--target", "-20", "--grid", free_});
   EXPECT_EQ(planned.exit_code, 0);
   EXPECT_EQ(Json::parse(planned.out)["direction_deg"], -20);
 
-  const Outcome refused = shell(lakshya + "--target 0 --grid " + folder_.path("none.json"));
+  const Outcome refused = run_command({lakshya, "plan", "--target", "0", "--grid", folder_.path("none.json")});
   EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_NE(refused.out.find("none.json: "), std::string::npos) << refused.out;
+  EXPECT_NE(refused.err.find("none.json: "), std::string::npos) << refused.err;
 
-  EXPECT_EQ(shell(lakshya + "--target nan --grid " + free_).exit_code, 2);
-  const Outcome help = shell(lakshya + "--help");
+  EXPECT_EQ(run_command({lakshya, "plan", "--target", "nan", "--grid", free_}).exit_code, 2);
+  const Outcome help = run_command({lakshya, "plan", "--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_NE(help.out.find("Example: lakshya plan"), std::string::npos) << help.out;
 }

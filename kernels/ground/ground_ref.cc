@@ -1,0 +1,67 @@
+#include <algorithm>
+#include <cstdlib>
+
+#include "kernels/base/integer.h"
+#include "kernels/ground/ground.h"
+
+namespace lakshya {
+namespace {
+
+constexpr int kToQ16 = 16 - kDisparityBits;
+
+struct Window {
+  std::int64_t count = 0;
+  std::int64_t weighted = 0;  // sum of residual * count
+};
+
+Window window_at(const GroundHistogram& h, int center) {
+  Window w;
+  for (int r = std::max(center - kGroundWindow, -kGroundReach); r <= std::min(center + kGroundWindow, kGroundReach);
+       ++r) {
+    const std::int64_t n = h[static_cast<std::size_t>(r + kGroundReach)];
+    w.count += n;
+    w.weighted += r * n;
+  }
+  return w;
+}
+
+bool stands_out(const Window& best, std::int64_t total, int range, std::int64_t pixels) {
+  const int width = 2 * kGroundWindow + 1;
+  const int percent = std::min(100 * kGroundContrast * width / (2 * range + 1), kGroundEnoughPercent);
+  return best.count > 0 && best.count * 100 >= total * percent &&
+         best.count * 100 >= pixels * kGroundMinImagePercent;
+}
+
+}  // namespace
+
+void ground_residuals_row_ref(const PruneModel& mount, int v, std::span<const std::int16_t> disparity,
+                              GroundHistogram& histogram) {
+  for (std::size_t i = 0; i < disparity.size(); ++i) {
+    const std::int64_t d = std::int64_t{disparity[i]} << kToQ16;
+    const std::int64_t floor = mount.floor.at(static_cast<int>(i), v);
+    const std::int64_t nearest_limit = mount.min_disparity;
+    if (disparity[i] <= 0 || d < nearest_limit || floor < nearest_limit || floor > mount.max_floor_disparity)
+      continue;
+    const std::int64_t residual = (d - floor + (1 << (kToQ16 - 1))) >> kToQ16;
+    if (std::abs(residual) <= kGroundReach) ++histogram[static_cast<std::size_t>(residual + kGroundReach)];
+  }
+}
+
+std::int32_t ground_offset(const GroundHistogram& histogram, std::int32_t range16, std::int64_t pixels) {
+  const int range = std::clamp(range16, 0, kGroundReach);
+  Window best;
+  std::int64_t total = 0;
+  for (int distance = 0; distance <= range; ++distance) {
+    for (const int center : {distance, -distance}) {
+      const Window w = window_at(histogram, center);
+      if (w.count > best.count) best = w;
+      total += histogram[static_cast<std::size_t>(center + kGroundReach)];
+      if (distance == 0) break;  // 0 and -0 are one window
+    }
+  }
+  if (!stands_out(best, total, range, pixels)) return 0;
+  const auto mean = static_cast<std::int32_t>(floor_divide(2 * best.weighted + best.count, 2 * best.count));
+  return std::clamp(mean, -range, range);
+}
+
+}  // namespace lakshya

@@ -1,0 +1,140 @@
+#include "kernels/ground/ground.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace lakshya {
+namespace {
+
+constexpr int kWidth = 320;
+constexpr int kHeight = 240;
+constexpr std::int64_t kPixels = kWidth * kHeight;
+
+PruneGeometry camera() {
+  PruneGeometry g;
+  g.focal_px = 320;
+  g.baseline_m = 0.125;
+  g.center_u = 160;
+  g.center_v = 120;
+  g.height_m = 0.5;
+  return g;
+}
+
+struct Model {
+  explicit Model(const PruneGeometry& g)
+      : depth(prune_table_entries(g.max_disparity_px)), height(prune_table_entries(g.max_disparity_px)) {
+    EXPECT_EQ(build_prune_model(g, depth, height, prune), Status::ok);
+  }
+  std::vector<std::int32_t> depth;
+  std::vector<std::int32_t> height;
+  PruneModel prune;
+};
+
+GroundHistogram residuals(const PruneModel& mount, const std::vector<std::vector<std::int16_t>>& image) {
+  GroundHistogram h{};
+  for (std::size_t v = 0; v < image.size(); ++v)
+    ground_residuals_row_ref(mount, static_cast<int>(v), image[v], h);
+  return h;
+}
+
+// What a camera of another pitch sees of an empty floor, with noise, and a wall of the given disparity above it.
+std::vector<std::vector<std::int16_t>> floor_and_wall(double pitch, double wall, double noise) {
+  PruneGeometry g = camera();
+  g.pitch = pitch;
+  const Model truth(g);
+  std::mt19937 random(51);
+  std::normal_distribution<double> scatter(0, noise);
+  std::vector<std::vector<std::int16_t>> image(kHeight, std::vector<std::int16_t>(kWidth, -3));
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth; ++u) {
+      const double floor = static_cast<double>(truth.prune.floor.at(u, v)) / 65536;
+      const double d = std::max(floor, wall) + scatter(random);
+      image[static_cast<std::size_t>(v)][static_cast<std::size_t>(u)] =
+          static_cast<std::int16_t>(std::max(std::lround(d * 16), 0L));
+    }
+  }
+  return image;
+}
+
+TEST(Ground, ResidualsByHand) {
+  const Model m(camera());
+  GroundHistogram h{};
+  // v = 200: d_f = 20 px. Not counted: no disparity, too far, a residual out of reach.
+  ground_residuals_row_ref(m.prune, 200,
+                           std::vector<std::int16_t>{20 * 16, 20 * 16 + 3, 18 * 16, -4, 0, 16, 50 * 16}, h);
+  EXPECT_EQ(h[kGroundReach], 1U);
+  EXPECT_EQ(h[kGroundReach + 3], 1U);
+  EXPECT_EQ(h[kGroundReach - 32], 1U);
+  std::uint32_t total = 0;
+  for (const std::uint32_t n : h)
+    total += n;
+  EXPECT_EQ(total, 3U);
+  // Above the horizon there is no floor.
+  ground_residuals_row_ref(m.prune, 100, std::vector<std::int16_t>{5 * 16}, h);
+  EXPECT_EQ(h[kGroundReach], 1U);
+}
+
+TEST(Ground, FindsThePitchErrorOfAFloorBeforeAWall) {
+  const Model mount(camera());
+  for (const double degrees : {-1.2, -0.5, 0.0, 0.4, 1.0}) {
+    const double pitch = degrees * 3.14159265 / 180;
+    const GroundHistogram h = residuals(mount.prune, floor_and_wall(pitch, 8, 0.2));
+    const double expected16 = 320 * 0.125 / 0.5 * pitch * 16;
+    EXPECT_NEAR(ground_offset(h, 64, kPixels), expected16, 1.5) << degrees;
+  }
+}
+
+TEST(Ground, StaysWithinItsRange) {
+  const Model mount(camera());
+  const GroundHistogram h = residuals(mount.prune, floor_and_wall(0.02, 8, 0.2));  // 25.6 sixteenths
+  EXPECT_NEAR(ground_offset(h, 64, kPixels), 26, 1.5);
+  EXPECT_LE(std::abs(ground_offset(h, 10, kPixels)), 10);
+  EXPECT_EQ(ground_offset(h, 0, kPixels), 0);
+}
+
+TEST(Ground, AWallAloneMovesNothing) {
+  const Model mount(camera());
+  const GroundHistogram h = residuals(mount.prune, floor_and_wall(0, 31, 0.1));
+  EXPECT_EQ(ground_offset(h, 64, kPixels), 0);
+}
+
+TEST(Ground, TooFewPixelsMoveNothing) {
+  GroundHistogram h{};
+  h[kGroundReach + 20] = 99;
+  EXPECT_EQ(ground_offset(h, 64, 5000), 0);
+  EXPECT_EQ(ground_offset(h, 64, 4950), 20);  // 2 %
+  EXPECT_EQ(ground_offset(GroundHistogram{}, 64, 0), 0);
+}
+
+TEST(Ground, TheMeanOfTheWindowRoundsHalfUp) {
+  GroundHistogram h{};
+  h[kGroundReach + 4] = 100;
+  h[kGroundReach + 5] = 100;
+  EXPECT_EQ(ground_offset(h, 64, 200), 5);
+  GroundHistogram mirrored{};
+  mirrored[kGroundReach - 4] = 100;
+  mirrored[kGroundReach - 5] = 100;
+  EXPECT_EQ(ground_offset(mirrored, 64, 200), -4);
+}
+
+TEST(ShiftFloor, EqualsAModelOfThatPitchForSmallAngles) {
+  PruneGeometry g = camera();
+  const Model level(g);
+  g.pitch = 0.01;
+  const Model pitched(g);
+  const PruneModel shifted = shift_floor(level.prune, static_cast<std::int64_t>(320 * 0.125 / 0.5 * 0.01 * 65536));
+  for (int v = 0; v < kHeight; v += 7) {
+    for (const auto bound : {&PruneModel::floor, &PruneModel::drop_relative, &PruneModel::drop_absolute,
+                             &PruneModel::floor_relative, &PruneModel::floor_absolute, &PruneModel::ceiling}) {
+      const double a = static_cast<double>((shifted.*bound).at(50, v)) / 65536;
+      const double b = static_cast<double>((pitched.prune.*bound).at(50, v)) / 65536;
+      ASSERT_NEAR(a, b, 0.01) << v;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lakshya
