@@ -61,6 +61,16 @@ void require_near_image(const CalibrationKey& key, double coordinate, int side) 
              std::to_string(side) + " px (calibrate again or fix the size)");
 }
 
+// A calibration that does not state its image size is most often caught here when it is another size's.
+void require_centre_inside(const StereoCalibration& calibration, const CameraModel& camera, int width, int height,
+                           const std::string& image_path) {
+  if (camera.cx >= 0 && camera.cx < width && camera.cy >= 0 && camera.cy < height) return;
+  throw InputError(image_path, "image size: the principal point (" + shown(camera.cx) + ", " + shown(camera.cy) +
+                                   ") of " + calibration.source + " is outside the image of " +
+                                   std::to_string(width) + "x" + std::to_string(height) +
+                                   " (use the calibration of these images)");
+}
+
 }  // namespace
 
 void CalibrationKey::refuse(const std::string& reason) const {
@@ -130,7 +140,12 @@ StereoCalibration read_calibration(const std::string& path, double opencv_unit_m
 
 void require_image_size(const StereoCalibration& calibration, int width, int height,
                         const std::string& image_path) {
-  if (calibration.width == 0 || (calibration.width == width && calibration.height == height)) return;
+  if (calibration.width == 0) {
+    require_centre_inside(calibration, calibration.left, width, height, image_path);
+    require_centre_inside(calibration, calibration.right, width, height, image_path);
+    return;
+  }
+  if (calibration.width == width && calibration.height == height) return;
   throw InputError(image_path, "image size: " + std::to_string(width) + "x" + std::to_string(height) +
                                    " is not the " + std::to_string(calibration.width) + "x" +
                                    std::to_string(calibration.height) + " of " + calibration.source +

@@ -68,10 +68,11 @@ double blind_zone_m(const VehicleConfig& config, const RectifiedGeometry& camera
   const double down =
       config.camera.pitch_deg * kDegree + std::atan((camera.height - 1 - camera.cy) / camera.focal_px);
   const double sideways = std::atan(0.5 * camera.width / camera.focal_px);
-  // A camera that looks over the floor altogether sees none of it within its range.
-  const double floor = down > 0 ? config.camera.height_m / std::tan(down) : config.prune.max_depth_m;
-  const double seen = std::min(floor, config.prune.max_depth_m) / std::cos(sideways) + config.camera.forward_m;
-  return std::max(config.planner.blind_zone_m, seen + 2 * config.grid.cell_m);
+  const double floor = down > 0 ? config.camera.height_m / std::tan(down) : HUGE_VAL;
+  const double seen = floor / std::cos(sideways) + config.camera.forward_m + 2 * config.grid.cell_m;
+  // A camera that does not show the floor within its range must not make unknown cells passable all the way.
+  if (seen > config.prune.max_depth_m) return config.planner.blind_zone_m;
+  return std::max(config.planner.blind_zone_m, seen);
 }
 
 }  // namespace lakshya

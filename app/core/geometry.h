@@ -22,8 +22,9 @@ ScoreGeometry score_geometry(const VehicleConfig& config, const RectifiedGeometr
 // kGroundReach.
 std::int32_t disparity_of_pitch16(const VehicleConfig& config, const RectifiedGeometry& camera, double pitch_deg);
 
-// Distance from the turning centre within which the camera cannot show the floor: where the image's bottom row
-// meets it, towards the image's corners, and two cells more. Never less than planner.blind_zone_m.
+// Distance from the turning centre within which the camera cannot show the floor: where the image's bottom row meets
+// it, towards the image's corners, and two cells more. Never less than planner.blind_zone_m, and just that for a camera
+// that shows no floor within prune.max_depth_m.
 double blind_zone_m(const VehicleConfig& config, const RectifiedGeometry& camera);
 
 }  // namespace lakshya

@@ -47,7 +47,6 @@ StoredRange stored_range(int min_disparity, double doffs) {
 Matcher::Matcher(const MatcherConfig& config, double doffs, int width, int height, const KernelTable& kernels,
                  Arena& arena)
     : kernels_(&kernels),
-      width_(width),
       height_(height),
       bands_(config.bands),
       texture_threshold_(config.texture_threshold),

@@ -33,7 +33,6 @@ class Matcher {
   Status match_band(int index, const ImageView<const std::uint8_t>& left);
 
   const KernelTable* kernels_;
-  int width_;
   int height_;
   int bands_;
   int texture_threshold_;

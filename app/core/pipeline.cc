@@ -9,6 +9,9 @@
 namespace lakshya {
 namespace {
 
+// More than any board has to spare; a mistake in the configuration must not bring the machine down.
+constexpr std::size_t kMaxArenaBytes = std::size_t{4} << 30;
+
 std::size_t size(int n) {
   return static_cast<std::size_t>(n);
 }
@@ -77,8 +80,22 @@ Pipeline::Pipeline(const VehicleConfig& config, const StereoCalibration& calibra
     maps_left_ = make_rectify_maps(calibration.left, r.R1, r.P1, width, height);
     maps_right_ = make_rectify_maps(calibration.right, r.R2, r.P2, width, height);
   }
+  const int first = stored_range(config.matcher.min_disparity, camera_.doffs()).first_raw;
+  if (first >= width || first + config.matcher.disparities <= -width) {
+    throw InputError(calibration.source, "search range: disparities from " +
+                                             std::to_string(config.matcher.min_disparity) + " px with doffs " +
+                                             std::to_string(camera_.doffs()) + " px lie outside an image " +
+                                             std::to_string(width) + " px wide (change matcher.min_disparity)");
+  }
   Arena measure;
   (void)Buffers(config, camera_, kernels, measure);
+  if (measure.used() > kMaxArenaBytes) {
+    throw InputError(calibration.source,
+                     "images of " + std::to_string(width) + "x" + std::to_string(height) + " need " +
+                         std::to_string(measure.used() >> 20) + " MiB of working memory, more than " +
+                         std::to_string(kMaxArenaBytes >> 20) +
+                         " (use smaller images, or fewer matcher.disparities or matcher.bands)");
+  }
   arena_ = Arena(measure.used());
   buffers_ = std::make_unique<Buffers>(config, camera_, kernels, arena_);
 
@@ -192,6 +209,7 @@ Status Pipeline::project_and_bin(FrameResult& result) {
 
 Status Pipeline::process(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
                          const PlanInput& input, FrameResult& result) {
+  result.plan = {};  // blocked: a frame that fails leaves no old command behind
   Status status = timed(*clock_, Stage::rectify, result, [&] { return rectify(left, right, result); });
   if (status != Status::ok) return status;
   status = timed(*clock_, Stage::match, result,

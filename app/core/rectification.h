@@ -11,11 +11,12 @@
 
 #include "app/core/calibration.h"
 #include "app/core/image.h"
+#include "kernels/rectify/rectify.h"
 
 namespace lakshya {
 
 // Maps hold pixels in Q7 fixed point (1/128 px).
-inline constexpr int kRectifyMapBits = 7;
+inline constexpr int kRectifyMapBits = kRectifyFractionBits;
 inline constexpr int kRectifyMapScale = 1 << kRectifyMapBits;
 inline constexpr int kRectifyMapMinPx = -32768;
 inline constexpr int kRectifyMapMaxPx = 32767;

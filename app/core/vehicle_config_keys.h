@@ -83,7 +83,7 @@ void visit_camera_keys(Camera& c, Visitor& v) {
   v(Key{"camera.roll_deg", "deg", "Tilt about the optical axis, positive right side down"}, c.roll_deg,
     Range{-30, 30});
   v(Key{"camera.yaw_deg", "deg", "Direction of the optical axis from straight ahead, positive to the left"},
-    c.yaw_deg, Range{-180, 180});
+    c.yaw_deg, Range{-90, 90});
   v(Key{"camera.forward_m", "m", "How far the left camera is in front of the turning centre"}, c.forward_m,
     Range{-5, 5});
   v(Key{"camera.left_m", "m", "How far the left camera is to the left of the turning centre"}, c.left_m,

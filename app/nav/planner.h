@@ -8,8 +8,7 @@
 // and has a clear distance above 0 on its centre ray.
 //  stop: the clear distance ends at the first unknown cell beyond the blind zone, as at an obstacle.
 //  slow: so it does, but where an unknown cell ended it the speed is at least min(unknown_speed_mps,
-//  max_speed_mps),
-//        unless an obstacle known further on in the corridor asks for less.
+//        max_speed_mps), unless an obstacle known further on in the corridor asks for less.
 #pragma once
 
 #include <cstdint>

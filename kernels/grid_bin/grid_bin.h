@@ -2,9 +2,9 @@
 //
 //   row = floor(forward / cell), column = floor((cols/2 cells - left) / cell), integer millimetres
 //
-// A point nearer than the first row is clamped into it: nothing is dropped for being near. Points beside or beyond
-// the map are dropped. Counts grow by relaxed atomic adds, so any number of threads gives the same map in any
-// order.
+// An obstacle point nearer than the first row is clamped into it: nothing is dropped for being near. Ground is not
+// clamped: floor behind the first row says nothing about it. What lies beside or beyond the map is dropped. Counts grow
+// by relaxed atomic adds, so any number of threads gives the same map in any order.
 #pragma once
 
 #include <span>

@@ -15,12 +15,11 @@ struct Cell {
 };
 
 Cell cell_of(const GridGeometry& g, std::int32_t forward_mm, std::int32_t left_mm) {
-  return {std::max(floor_divide(forward_mm, g.cell_mm), 0),
-          floor_divide(g.cols / 2 * g.cell_mm - left_mm, g.cell_mm)};
+  return {floor_divide(forward_mm, g.cell_mm), floor_divide(g.cols / 2 * g.cell_mm - left_mm, g.cell_mm)};
 }
 
 bool inside(const GridGeometry& g, const Cell& c) {
-  return c.row < g.rows && c.col >= 0 && c.col < g.cols;
+  return c.row >= 0 && c.row < g.rows && c.col >= 0 && c.col < g.cols;
 }
 
 template <class T>
@@ -43,7 +42,7 @@ void bin_strip(const GroundStrip& s, const NavGrid& grid, const ImageView<std::u
   const int steps = samples_of(grid.geometry, s);
   for (int i = 0; i <= steps; ++i) {
     const auto between = [&](std::int32_t near, std::int32_t far) {
-      return steps == 0 ? near : near + static_cast<std::int32_t>(std::int64_t{far - near} * i / steps);
+      return steps == 0 ? near : near + static_cast<std::int32_t>((std::int64_t{far} - near) * i / steps);
     };
     const Cell c = cell_of(grid.geometry, between(s.near_forward_mm, s.far_forward_mm),
                            between(s.near_left_mm, s.far_left_mm));
@@ -75,7 +74,8 @@ Status clear_grid(const NavGrid& grid) {
 Status bin_obstacles_ref(std::span<const ObstaclePoint> points, const NavGrid& grid) {
   if (!grid_ok(grid)) return Status::bad_argument;
   for (const ObstaclePoint& p : points) {
-    const Cell c = cell_of(grid.geometry, p.forward_mm, p.left_mm);
+    Cell c = cell_of(grid.geometry, p.forward_mm, p.left_mm);
+    c.row = std::max(c.row, 0);
     if (!inside(grid.geometry, c)) continue;
     add(grid.count.at(c.col, c.row), std::uint32_t{1});
     add(grid.height_sum.at(c.col, c.row), std::int64_t{p.height_mm});

@@ -5,9 +5,11 @@
 // height above the floor is h = H (1 - d_f / d) (S. Kumar's eq. 4 without the division), so every test compares the
 // disparity with an affine bound. In this order:
 //   too far:   d < f B / z_max
-//   nothing concluded (no_disparity): d_f beyond the search range, where the floor itself could not have been
-//   matched drop-off:  d_f > 0, d < min(d_f H/(H+tau), d_f - k s) floor:     d_f > 0, d <= max(d_f H/(H-tau), d_f +
-//   k s) ceiling:   h > C obstacle:  the rest
+//   nothing concluded (no_disparity): d_f beyond the search range, where the floor itself could not have been matched
+//   drop-off:  d_f > 0, d < min(d_f H/(H+tau), d_f - k s)
+//   floor:     d_f > 0, d <= max(d_f H/(H-tau), d_f + k s)
+//   ceiling:   h > C
+//   obstacle:  the rest
 // with s = hypot(sigma_d, f B sigma_pitch / H). Bounds are Q16 px (int64 products of once-rounded coefficients).
 #pragma once
 
@@ -76,7 +78,7 @@ struct PruneModel {
 std::size_t prune_table_entries(double max_disparity_px);
 
 // Rounds the geometry into a model and fills the two tables (prune_table_entries elements each), which must outlive
-// it. bad_argument: a length or focal length not positive, tau >= H, |pitch| or |roll| >= 80 degrees;
+// it. bad_argument: a length or focal length not positive, tau not at least 1 mm below H, |pitch| or |roll| >= 80 degrees, a disparity of 2048 px or more;
 // scratch_too_small: a table is too short.
 Status build_prune_model(const PruneGeometry& geometry, std::span<std::int32_t> depth_table,
                          std::span<std::int32_t> height_table, PruneModel& model);
@@ -116,9 +118,9 @@ struct PixelCounts {
   std::uint32_t by_reason[kNoDisparityReasons] = {};
 };
 
-// disparity: row v of the image, 1/16 px or NoDisparity. Fills `out` from the start, adds to `counts`, and writes
-// one PixelClass per pixel to `classes` unless that is empty. A disparity beyond the tables counts as their last
-// entry. size_mismatch (classes), scratch_too_small (out).
+// disparity: row v of the image, 1/16 px or NoDisparity (an unknown negative code counts as kNotSearched; one beyond the
+// tables as their last entry). Fills `out` from the start, adds to `counts`, and writes one PixelClass per pixel to
+// `classes` unless that is empty. size_mismatch (classes), scratch_too_small (out).
 Status reproject_prune_row_ref(const PruneModel& model, int v, std::span<const std::int16_t> disparity,
                                PrunedRow& out, PixelCounts& counts, std::span<PixelClass> classes);
 

@@ -28,7 +28,7 @@ Affine floor_bound(const PruneGeometry& g, double scale, double offset) {
 
 void set_ceiling(const PruneGeometry& g, PruneModel& model) {
   const double above = g.clearance_m - g.height_m;
-  if (std::abs(above) < 1e-9) {
+  if (std::abs(above) < 0.0005) {
     model.ceiling_test = CeilingTest::at_camera;
   } else {
     model.ceiling_test = above > 0 ? CeilingTest::above_camera : CeilingTest::below_camera;
@@ -61,7 +61,7 @@ void set_directions(const PruneGeometry& g, PruneModel& model) {
 bool geometry_ok(const PruneGeometry& g) {
   constexpr double kSteepest = 80.0 * std::numbers::pi / 180.0;
   return g.focal_px > 0 && g.baseline_m > 0 && g.height_m > 0 && g.max_depth_m > 0 && g.clearance_m > 0 &&
-         g.floor_tolerance_m >= 0 && g.floor_tolerance_m < g.height_m && g.max_disparity_px > 0 &&
+         g.floor_tolerance_m >= 0 && g.height_m - g.floor_tolerance_m >= 0.001 && g.max_disparity_px > 0 &&
          g.max_disparity_px < 2048 && std::abs(g.pitch) < kSteepest && std::abs(g.roll) < kSteepest;
 }
 

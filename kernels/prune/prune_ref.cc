@@ -80,7 +80,7 @@ Status reproject_prune_row_ref(const PruneModel& model, int v, std::span<const s
     const std::int16_t d = disparity[i];
     const PixelClass pixel = d < 0 ? PixelClass::no_disparity : classify_pixel(model, u, v, d);
     ++counts.by_class[static_cast<int>(pixel)];
-    if (d < 0) ++counts.by_reason[-d - 1];
+    if (d < 0) ++counts.by_reason[d >= -kNoDisparityReasons ? -d - 1 : 0];
     if (!classes.empty()) classes[i] = pixel;
     if (pixel == PixelClass::obstacle) {
       out.obstacles[out.obstacle_count++] = reproject_pixel(model, u, v, d);

@@ -1,4 +1,5 @@
 #include "kernels/base/units.h"
+#include "kernels/grid_bin/grid_bin.h"
 #include "kernels/score/score.h"
 
 namespace lakshya {
@@ -8,7 +9,7 @@ Status score_ref(std::span<const CellThresholds> thresholds, std::int32_t min_he
   if (thresholds.size() != static_cast<std::size_t>(g.rows) * static_cast<std::size_t>(g.cols)) {
     return Status::size_mismatch;
   }
-  if (min_height_mm < 0) return Status::bad_argument;
+  if (min_height_mm < 0 || !grid_ok(grid)) return Status::bad_argument;
   std::size_t i = 0;
   for (int row = 0; row < g.rows; ++row) {
     for (int col = 0; col < g.cols; ++col, ++i) {

@@ -5,12 +5,13 @@
 //   winner:      smallest S, the smaller disparity on a tie; when its right pixel is outside: kNotSearched
 //   uniqueness:  a candidate outside winner +-1 with S * (100 - uniqueness_percent) < 100 * S_min: kNotUnique
 //   left-right:  the right pixel's own winner over the same costs differs by more than left_right_max:
-//   kLeftRightFailed sub-pixel:   num = S(i-1) - S(i+1), den = max(S(i-1) + S(i+1) - 2 S(i), 1),
+//                kLeftRightFailed
+//   sub-pixel:   num = S(i-1) - S(i+1), den = max(S(i-1) + S(i+1) - 2 S(i), 1),
 //                d16 = 16 d + floor((16 num + den) / (2 den)): the vertex of the parabola through the three costs,
 //                rounded half up; none at the ends of the range
 //   output:      d16 + offset16, so that 1/16 px disparities include doffs; a pixel without texture is kLowTexture
-// Sources: H. Hirschmueller, "Stereo Processing by Semiglobal Matching and Mutual Information", PAMI 2008
-// (left-right check, quadratic sub-pixel).
+// Source: H. Hirschmueller, "Stereo Processing by Semiglobal Matching and Mutual Information", PAMI 2008 (left-right
+// check, quadratic sub-pixel).
 #pragma once
 
 #include <cstdint>

@@ -25,7 +25,7 @@ namespace lakshya {
 struct SgmParams {
   SearchRange range;
   SelectParams select;
-  int paths = 5;         // 5 or 3
+  int paths = 3;         // 5 or 3
   int p1 = 8;            // 0 <= p1 <= p2
   int p2 = 40;           // p2 <= 200: C + P2 stays below 255
   int warmup_rows = 16;  // rows above the band that start its top paths, >= 0

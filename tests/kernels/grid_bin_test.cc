@@ -40,6 +40,16 @@ TEST(GridBin, NothingIsDroppedForBeingNear) {
   EXPECT_EQ(g.view().count.at(5, 0), 2U);
 }
 
+TEST(GridBin, GroundBehindTheFirstRowIsNotMovedIntoIt) {
+  TestGrid g(20, 20);
+  ASSERT_EQ(bin_ground_ref(std::vector<GroundStrip>{{-900, 50, -10, 50}, {-150, 50, 150, 50}}, g.view(),
+                           g.view().floor_count),
+            Status::ok);
+  EXPECT_EQ(g.view().floor_count.at(9, 0), 1U);
+  EXPECT_EQ(g.view().floor_count.at(9, 1), 1U);
+  EXPECT_EQ(TestGrid::total(g.view().floor_count), 2U);
+}
+
 TEST(GridBin, PointsBesideAndBeyondTheMapAreDropped) {
   TestGrid g(10, 10);
   const std::vector<ObstaclePoint> outside = {{1000, 0, 1}, {500, 501, 1}, {500, -500, 1}, {2000000000, 0, 1}};

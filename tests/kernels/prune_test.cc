@@ -310,6 +310,12 @@ TEST_F(PruneRow, WorksWithoutAClassImageAndAddsToTheCounts) {
   EXPECT_EQ(row_.obstacle_count, 2U);
 }
 
+TEST_F(PruneRow, AnUnknownCodeCountsAsNotSearched) {
+  ASSERT_EQ(run(320, {-16, -32768, -6}), Status::ok);
+  EXPECT_EQ(counts_.by_reason[0], 2U);
+  EXPECT_EQ(counts_.by_reason[5], 1U);
+}
+
 TEST_F(PruneRow, RefusesShortArrays) {
   EXPECT_EQ(run(0, std::vector<std::int16_t>(9)), Status::scratch_too_small);
   std::vector<PixelClass> wrong(3);

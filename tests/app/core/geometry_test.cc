@@ -26,10 +26,12 @@ TEST(BlindZone, IsWhereTheBottomRowMeetsTheFloor) {
   EXPECT_EQ(blind_zone_m(config, camera()), 4);
 }
 
-TEST(BlindZone, ACameraThatLooksUpSeesNoFloorInItsRange) {
+TEST(BlindZone, IsNotWidenedForACameraThatShowsNoFloor) {
   VehicleConfig config;
   config.camera.pitch_deg = -45;
-  EXPECT_GT(blind_zone_m(config, camera()), config.prune.max_depth_m);
+  EXPECT_EQ(blind_zone_m(config, camera()), config.planner.blind_zone_m);
+  config.camera.pitch_deg = -36.7;  // the bottom row looks 0.2 degrees down: floor beyond the map's depth
+  EXPECT_EQ(blind_zone_m(config, camera()), config.planner.blind_zone_m);
 }
 
 TEST(StoredRange, TakesDoffsOutOfTheSearch) {

@@ -103,9 +103,9 @@ TEST_F(PipelineTest, MapsABoxOnAFloorBeforeAWall) {
   EXPECT_EQ(type(1.6, 0.0), kCellUnoccupied);
   EXPECT_EQ(type(1.6, 0.7), kCellUnoccupied);
   EXPECT_EQ(type(3.0, 0.95), kCellUnoccupied);
-  EXPECT_EQ(type(3.0, 0.0), kCellUnknown);  // behind the box
+  EXPECT_EQ(type(3.0, 0.0), kCellUnknown);    // behind the box
   EXPECT_EQ(type(4.95, 1.5), kCellObstacle);  // 77/16 px is 4.99 m
-  EXPECT_EQ(type(0.05, 0.0), kCellUnknown);  // below the view
+  EXPECT_EQ(type(0.05, 0.0), kCellUnknown);   // below the view
   EXPECT_EQ(f.grid.below_count.at(30, 16), 0U);
 }
 
@@ -182,6 +182,37 @@ TEST_F(PipelineTest, RefusesAFloorToleranceAboveTheCamera) {
   VehicleConfig c = vehicle();
   c.prune.floor_tolerance_m = 0.6;
   EXPECT_THROW(Pipeline(c, rig(), kWidth, kHeight, kReferenceKernels, clock_), InputError);
+}
+
+TEST_F(PipelineTest, RefusesASearchRangeOutsideTheImage) {
+  VehicleConfig c = vehicle();
+  c.matcher.min_disparity = kWidth;
+  EXPECT_THROW(Pipeline(c, rig(), kWidth, kHeight, kReferenceKernels, clock_), InputError);
+}
+
+TEST_F(PipelineTest, AFailedFrameLeavesNoCommandBehind) {
+  Pipeline pipeline(vehicle(), rig(), kWidth, kHeight, kReferenceKernels, clock_);
+  FrameResult frame = run(pipeline);
+  ASSERT_FALSE(frame.plan.blocked);
+  EXPECT_EQ(pipeline.process({}, {}, {}, frame), Status::size_mismatch);
+  EXPECT_TRUE(frame.plan.blocked);
+  EXPECT_EQ(frame.plan.speed_mps, 0);
+}
+
+TEST_F(PipelineTest, TheGroundIsFoundDespiteAWrongPitchAndFollowedAtABoundedRate) {
+  VehicleConfig wrong = vehicle();
+  wrong.camera.pitch_deg = 1.0;
+  wrong.prune.ground_rate_deg = 0.2;
+  Pipeline pipeline(wrong, rig(), kWidth, kHeight, kReferenceKernels, clock_);
+  const FrameResult f = run(pipeline);
+  // (f B / H) * 1 degree = 48 * 0.01745 = 0.84 px too much in the mount's plane.
+  EXPECT_NEAR(f.ground_offset16, -0.84 * 16, 4);  // a quarter of a pixel
+  EXPECT_EQ(f.grid.type.at(30, 16), kCellUnoccupied);
+  // A frame without any ground lets go of it by the bounded rate only.
+  const test::PaddedImage<std::uint8_t> black(kWidth, kHeight);
+  FrameResult next;
+  ASSERT_EQ(pipeline.process(black.view(), black.view(), {}, next), Status::ok);
+  EXPECT_EQ(next.ground_offset16, f.ground_offset16 + 3);  // 0.2 degrees are 2.7 sixteenths
 }
 
 TEST(PipelineSizes, TinyImagesAreProcessed) {
