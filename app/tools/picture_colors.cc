@@ -76,7 +76,7 @@ Rgb8 turbo(double t) {
 
 Rgb8 disparity_color(double disparity_px, double largest_px) {
   constexpr double kFirst = 0.07;
-  return turbo(kFirst + (1 - kFirst) * std::min(disparity_px / largest_px, 1.0));
+  return turbo(kFirst + (1 - kFirst) * std::clamp(disparity_px / largest_px, 0.0, 1.0));
 }
 
 Rgb8 height_color(double height_m, double clearance_m) {

@@ -37,7 +37,7 @@ Rgb8 mix(Rgb8 a, Rgb8 b, double share);
 // Visualization" (2019), the fifth-degree polynomials that he and R. Du published for it.
 Rgb8 turbo(double t);
 
-// Disparity (px, >= 0) on a scale that ends at `largest`; starts above turbo's nearly black end, so that a far
+// Disparity (px) on a scale from 0 to `largest`; starts above turbo's nearly black end, so that a far
 // pixel does not look like one without disparity.
 Rgb8 disparity_color(double disparity_px, double largest_px);
 

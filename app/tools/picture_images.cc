@@ -9,27 +9,32 @@
 
 namespace lakshya {
 
-double disparity_scale_px(ImageView<const std::int16_t> disparity) {
+DisparityScale disparity_scale(ImageView<const std::int16_t> disparity) {
   std::vector<std::int16_t> present;
   for (int v = 0; v < disparity.height; ++v) {
     std::copy_if(disparity.row(v), disparity.row(v) + disparity.width, std::back_inserter(present),
                  [](std::int16_t d) { return d >= 0; });
   }
-  if (present.empty()) return 1;
-  const auto rank = static_cast<std::ptrdiff_t>((present.size() - 1) * 995 / 1000);
-  std::nth_element(present.begin(), present.begin() + rank, present.end());
-  return std::max(1.0, static_cast<double>(present[static_cast<std::size_t>(rank)]) / kDisparityScale);
+  if (present.empty()) return {0, 1};
+  const auto per_mille = [&present](std::size_t share) {
+    const auto rank = static_cast<std::ptrdiff_t>((present.size() - 1) * share / 1000);
+    std::nth_element(present.begin(), present.begin() + rank, present.end());
+    return static_cast<double>(present[static_cast<std::size_t>(rank)]) / kDisparityScale;
+  };
+  const double last = std::max(1.0, per_mille(995));
+  const double first = per_mille(5);
+  return {first > last / 2 ? std::min(first, last - 1) : 0, last};
 }
 
 Image<Rgb8> disparity_picture(const PictureInput& input) {
   const ImageView<const std::int16_t>& disparity = input.frame.disparity;
-  const double largest = disparity_scale_px(disparity);
+  const DisparityScale scale = disparity_scale(disparity);
   Image<Rgb8> picture(disparity.width, disparity.height, kNoDisparityColor);
   const auto out = picture.view();
   for (int v = 0; v < disparity.height; ++v) {
     for (int u = 0; u < disparity.width; ++u) {
       const double d = static_cast<double>(disparity.at(u, v)) / kDisparityScale;
-      if (d >= 0) out.at(u, v) = disparity_color(d, largest);
+      if (d >= 0) out.at(u, v) = disparity_color(d - scale.first, scale.last - scale.first);
     }
   }
   return picture;

@@ -83,32 +83,37 @@ class Spaced {
   double end_ = -1e9;
 };
 
-void draw_pixel_ticks(Canvas& sheet, const Box& bar, double largest) {
-  const double step = round_step(largest * 60 / bar.width);
-  for (int k = 0; k * step <= largest; ++k) {
+// Where a disparity lies on the bar.
+double bar_x(const Box& bar, const DisparityScale& scale, double d) {
+  return bar.x + (d - scale.first) / (scale.last - scale.first) * bar.width;
+}
+
+void draw_pixel_ticks(Canvas& sheet, const Box& bar, const DisparityScale& scale) {
+  const double step = round_step((scale.last - scale.first) * 60 / bar.width);
+  for (int k = static_cast<int>(std::ceil(scale.first / step)); k * step <= scale.last; ++k) {
     const double d = k * step;
-    const double x = bar.x + d / largest * bar.width;
+    const double x = bar_x(bar, scale, d);
     sheet.fill({static_cast<int>(x), bar.bottom(), 1, 5}, kInk);
     sheet.text({x, bar.bottom() + 9 + kSmallText}, decimal(d, step < 1 ? 1 : 0), kSmallText, kInk, Align::center);
   }
 }
 
 // Round distances from far (left) to near, as many as there is room for.
-void draw_metre_ticks(Canvas& sheet, const Box& bar, double largest, double focal_baseline) {
+void draw_metre_ticks(Canvas& sheet, const Box& bar, const DisparityScale& scale, double focal_baseline) {
   constexpr std::array kMetres = {100.0, 50.0, 30.0, 20.0, 15.0, 10.0, 8.0, 7.0,  6.0, 5.0, 4.0,
                                   3.5,   3.0,  2.5,  2.0,  1.8,  1.6,  1.4, 1.2,  1.0, 0.9, 0.8,
                                   0.7,   0.6,  0.5,  0.4,  0.3,  0.25, 0.2, 0.15, 0.1, 0.05};
   Spaced spaced;
   const auto tick = [&](double d, const std::string& label) {
-    const double x = bar.x + d / largest * bar.width;
+    const double x = bar_x(bar, scale, d);
     if (!spaced.fits(x, text_width(label, kSmallText) / 2.0)) return;
     sheet.fill({static_cast<int>(x), bar.y - 5, 1, 5}, kInk);
     sheet.text({x, bar.y - 9.0}, label, kSmallText, kInk, Align::center);
   };
-  tick(0, "inf");
+  if (scale.first == 0) tick(0, "inf");
   for (const double z : kMetres) {
     const double d = focal_baseline / z;
-    if (d <= largest) tick(d, decimal(z, z < 0.995 ? 2 : 1));
+    if (d >= scale.first && d <= scale.last) tick(d, decimal(z, z < 0.995 ? 2 : 1));
   }
 }
 
@@ -170,13 +175,13 @@ std::vector<LegendItem> map_legend(const PictureInput& input) {
 }
 
 void draw_disparity_bar(Canvas& sheet, const Box& box, const PictureInput& input) {
-  const double largest = disparity_scale_px(input.frame.disparity);
+  const DisparityScale scale = disparity_scale(input.frame.disparity);
   const Box bar{box.x + 16, box.y + 34, box.width - 140, 20};
   for (int x = 0; x < bar.width; ++x)
     sheet.fill({bar.x + x, bar.y, 1, bar.height}, disparity_color(x + 0.5, bar.width));
   sheet.frame(bar, kFaintInk);
-  draw_pixel_ticks(sheet, bar, largest);
-  draw_metre_ticks(sheet, bar, largest, input.camera.focal_px * input.camera.baseline_m);
+  draw_pixel_ticks(sheet, bar, scale);
+  draw_metre_ticks(sheet, bar, scale, input.camera.focal_px * input.camera.baseline_m);
   sheet.text({bar.right() + 26.0, bar.y - 9.0}, "depth, m", kSmallText, kFaintInk);
   sheet.text({bar.right() + 26.0, bar.bottom() + 9 + kSmallText}, "disparity, px", kSmallText, kFaintInk);
   draw_legend(sheet, {static_cast<double>(bar.x), bar.bottom() + 34.0}, bar.width,

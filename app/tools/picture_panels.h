@@ -12,8 +12,13 @@ namespace lakshya {
 
 // ---- picture_images.cc
 
-// End of the colour scale: the 99.5th percentile of the disparities present, at least 1 px.
-double disparity_scale_px(ImageView<const std::int16_t> disparity);
+// Ends of the colour scale, px. `last` is the 99.5th percentile of the disparities present, at least 1; `first` is 0, or
+// the 0.5th percentile where that is beyond half of `last` (a near scene, or a rig with a large doffs).
+struct DisparityScale {
+  double first = 0;
+  double last = 1;
+};
+DisparityScale disparity_scale(ImageView<const std::int16_t> disparity);
 Image<Rgb8> gray_picture(ImageView<const std::uint8_t> gray);
 
 // ---- picture_map.cc

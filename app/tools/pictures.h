@@ -23,8 +23,8 @@ struct PictureInput {
   std::string title;    // ASCII (other characters become '?'), cut where it does not fit
 };
 
-// Disparity in colour, pixel for pixel: from dark blue (0, far) through green to red (near). The scale ends at the
-// 99.5th percentile of the disparities present. Dark grey: no disparity.
+// Disparity in colour, pixel for pixel: from dark blue (far) through green to red (near). The scale runs from 0 (from
+// the smallest present, in a scene that is near as a whole) to the 99.5th percentile. Dark grey: no disparity.
 Image<Rgb8> disparity_picture(const PictureInput& input);
 
 // The rectified left image, pixel for pixel, tinted by what pruning decided: obstacle red, floor green, ceiling

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <numbers>
@@ -90,8 +91,12 @@ void write_results(const ProcessOptions& o, const VehicleConfig& config, const P
         "{} disparities do not fit disparity.png's 0 to 256 px and were clipped there (the map is not affected)",
         disparity.clipped);
   }
-  const PictureInput pictures{
-      frame, pipeline.camera(), config, o.target_deg * std::numbers::pi / 180, pipeline.blind_zone(), o.left};
+  const PictureInput pictures{frame,
+                              pipeline.camera(),
+                              config,
+                              o.target_deg * std::numbers::pi / 180,
+                              pipeline.blind_zone(),
+                              std::filesystem::path(o.left).filename()};
   write_png(folder.file("disparity.png"), disparity.image.view());
   write_png(folder.file("disparity_color.png"), disparity_picture(pictures).view());
   write_png(folder.file("classes.png"), classes_picture(pictures).view());

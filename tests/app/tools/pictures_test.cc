@@ -235,13 +235,24 @@ TEST(DisparityPicture, AFewOutliersDoNotSetTheScale) {
   Scene scene(50, 20);
   for (int i = 0; i < 1000; ++i)
     scene.put_disparity(i % 50, i / 50, PixelClass::floor, i < 4 ? 500 : 20);
-  EXPECT_DOUBLE_EQ(disparity_scale_px(scene.frame.disparity), 20);
+  EXPECT_DOUBLE_EQ(disparity_scale(scene.frame.disparity).last, 20);
   EXPECT_TRUE(same(disparity_picture(scene.input()).view().at(30, 10), turbo(1)));
+}
+
+TEST(DisparityPicture, TheScaleStartsAtZeroUnlessTheWholeSceneIsNear) {
+  Scene scene(50, 20);
+  for (int i = 0; i < 1000; ++i)
+    scene.put_disparity(i % 50, i / 50, PixelClass::obstacle, i < 500 ? 30 : 40);
+  EXPECT_DOUBLE_EQ(disparity_scale(scene.frame.disparity).first, 30);
+  EXPECT_DOUBLE_EQ(disparity_scale(scene.frame.disparity).last, 40);
+  for (int i = 0; i < 100; ++i)
+    scene.put_disparity(i % 50, i / 50, PixelClass::obstacle, 15);
+  EXPECT_DOUBLE_EQ(disparity_scale(scene.frame.disparity).first, 0);
 }
 
 TEST(DisparityPicture, WithoutAnyDisparityIsDark) {
   const Scene scene(16, 16);
-  EXPECT_DOUBLE_EQ(disparity_scale_px(scene.frame.disparity), 1);
+  EXPECT_DOUBLE_EQ(disparity_scale(scene.frame.disparity).last, 1);
   EXPECT_EQ(pixels_of(disparity_picture(scene.input()), kNoDisparityColor), 256);
 }
 
