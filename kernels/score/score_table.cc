@@ -35,7 +35,7 @@ Status build_score_table(const GridGeometry& grid, const ScoreGeometry& g, std::
   for (int row = 0; row < grid.rows; ++row) {
     for (int col = 0; col < grid.cols; ++col) {
       const double forward = (row + 0.5) * cell - g.forward_m;
-      const double left = (grid.cols / 2 - col - 0.5) * cell - g.left_m;
+      const double left = (0.5 * grid.cols - col - 0.5) * cell - g.left_m;
       const double ahead = std::cos(g.yaw) * forward + std::sin(g.yaw) * left;
       const double z = std::cos(g.pitch) * ahead + std::sin(g.pitch) * g.height_m;
       thresholds[i++] = thresholds_at(g, cell, std::max(z, nearest));
