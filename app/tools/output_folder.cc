@@ -1,8 +1,10 @@
 #include "app/tools/output_folder.h"
 
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
+#include <vector>
 
 #include "app/core/input_error.h"
 
@@ -43,15 +45,24 @@ OutputFolder::~OutputFolder() {
 
 void OutputFolder::commit(const std::string& stale) {
   std::error_code error;
-  if (!fs::exists(wanted_)) {
+  if (!fs::exists(wanted_, error)) {
     fs::rename(temporary_, wanted_, error);
     if (error) refuse(wanted_, error.message());
     temporary_.clear();
     return;
   }
-  if (!fs::exists(file(stale))) fs::remove(fs::path(wanted_) / stale, error);
-  for (const fs::directory_entry& entry : fs::directory_iterator(temporary_)) {
-    fs::rename(entry.path(), fs::path(wanted_) / entry.path().filename(), error);
+  // Whatever could refuse a file is looked for before the first one moves.
+  std::vector<fs::path> files;
+  for (fs::directory_iterator it(temporary_, error), end; !error && it != end; it.increment(error)) {
+    files.push_back(it->path().filename());
+    const fs::path target = fs::path(wanted_) / files.back();
+    if (fs::is_directory(target, error)) refuse(target.string(), "a folder of that name is in the way");
+    error.clear();  // the target need not exist
+  }
+  if (error) refuse(wanted_, error.message());
+  if (!fs::exists(file(stale), error)) fs::remove(fs::path(wanted_) / stale, error);
+  for (const fs::path& name : files) {
+    fs::rename(fs::path(temporary_) / name, fs::path(wanted_) / name, error);
     if (error) refuse(wanted_, error.message());
   }
 }

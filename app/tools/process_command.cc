@@ -83,8 +83,7 @@ Pair read_pair(const ProcessOptions& o, const StereoCalibration& calibration) {
 }
 
 void write_results(const ProcessOptions& o, const VehicleConfig& config, const Pipeline& pipeline,
-                   const FrameResult& frame) {
-  OutputFolder folder(o.out);
+                   const FrameResult& frame, OutputFolder& folder) {
   const KittiDisparity disparity = kitti_disparity(frame.disparity, pipeline.camera().doffs());
   if (disparity.clipped > 0) {
     spdlog::warn(
@@ -122,12 +121,13 @@ void process(const ProcessOptions& o) {
 
   spdlog::info("{}x{}, {} disparities: matching with the scalar reference", pair.left.width(), pair.left.height(),
                config.matcher.disparities);
+  OutputFolder folder(o.out);  // refuses before the long work, not after it
   FrameResult frame;
   const PlanInput input{.target = o.target_deg * std::numbers::pi / 180};
   const Status status = pipeline.process(pair.left.view(), pair.right.view(), input, frame);
   if (status != Status::ok) throw InputError(o.left, std::string("cannot be processed: ") + to_string(status));
   spdlog::info("drawing and writing {}", o.out);
-  write_results(o, config, pipeline, frame);
+  write_results(o, config, pipeline, frame, folder);
 
   if (o.json) {
     nlohmann::ordered_json json = frame_json(frame, config.planner);
