@@ -9,6 +9,11 @@ namespace {
 
 constexpr int kToQ16 = 16 - kDisparityBits;
 
+// Index of a residual.
+std::size_t bin(std::int64_t residual) {
+  return static_cast<std::size_t>(residual + kGroundReach);
+}
+
 struct Window {
   std::int64_t count = 0;
   std::int64_t weighted = 0;  // sum of residual * count
@@ -18,7 +23,7 @@ Window window_at(const GroundHistogram& h, int center) {
   Window w;
   for (int r = std::max(center - kGroundWindow, -kGroundReach); r <= std::min(center + kGroundWindow, kGroundReach);
        ++r) {
-    const std::int64_t n = h[static_cast<std::size_t>(r + kGroundReach)];
+    const std::int64_t n = h[bin(r)];
     w.count += n;
     w.weighted += r * n;
   }
@@ -43,7 +48,7 @@ void ground_residuals_row_ref(const PruneModel& mount, int v, std::span<const st
     if (disparity[i] <= 0 || d < nearest_limit || floor < nearest_limit || floor > mount.max_floor_disparity)
       continue;
     const std::int64_t residual = (d - floor + (1 << (kToQ16 - 1))) >> kToQ16;
-    if (std::abs(residual) <= kGroundReach) ++histogram[static_cast<std::size_t>(residual + kGroundReach)];
+    if (std::abs(residual) <= kGroundReach) ++histogram[bin(residual)];
   }
 }
 
@@ -55,7 +60,7 @@ std::int32_t ground_offset(const GroundHistogram& histogram, std::int32_t range1
     for (const int center : {distance, -distance}) {
       const Window w = window_at(histogram, center);
       if (w.count > best.count) best = w;
-      total += histogram[static_cast<std::size_t>(center + kGroundReach)];
+      total += histogram[bin(center)];
       if (distance == 0) break;  // 0 and -0 are one window
     }
   }
