@@ -6,6 +6,8 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/test_prune_model.h"
+
 namespace lakshya {
 namespace {
 
@@ -23,15 +25,7 @@ PruneGeometry camera() {
   return g;
 }
 
-struct Model {
-  explicit Model(const PruneGeometry& g)
-      : depth(prune_table_entries(g.max_disparity_px)), height(prune_table_entries(g.max_disparity_px)) {
-    EXPECT_EQ(build_prune_model(g, depth, height, prune), Status::ok);
-  }
-  std::vector<std::int32_t> depth;
-  std::vector<std::int32_t> height;
-  PruneModel prune;
-};
+using Model = test::TestPruneModel;
 
 GroundHistogram residuals(const PruneModel& mount, const std::vector<std::vector<std::int16_t>>& image) {
   GroundHistogram h{};

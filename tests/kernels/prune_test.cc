@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/test_prune_model.h"
+
 namespace lakshya {
 namespace {
 
@@ -30,15 +32,7 @@ PruneGeometry level_camera() {
   return g;
 }
 
-struct Model {
-  explicit Model(const PruneGeometry& g)
-      : depth(prune_table_entries(g.max_disparity_px)), height(prune_table_entries(g.max_disparity_px)) {
-    EXPECT_EQ(build_prune_model(g, depth, height, prune), Status::ok);
-  }
-  std::vector<std::int32_t> depth;
-  std::vector<std::int32_t> height;
-  PruneModel prune;
-};
+using Model = test::TestPruneModel;
 
 PixelClass classify(const PruneGeometry& g, int u, int v, double d) {
   const Model m(g);
