@@ -9,6 +9,11 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
+// What a degree of pitch does to the floor's disparity: f B / H.
+double pixels16_per_degree(const VehicleConfig& config, const RectifiedGeometry& camera) {
+  return kDisparityScale * kDegree * camera.focal_px * camera.baseline_m / config.camera.height_m;
+}
+
 }  // namespace
 
 double max_disparity_px(const MatcherConfig& matcher) {
@@ -60,8 +65,13 @@ ScoreGeometry score_geometry(const VehicleConfig& config, const RectifiedGeometr
 }
 
 std::int32_t disparity_of_pitch16(const VehicleConfig& config, const RectifiedGeometry& camera, double pitch_deg) {
-  const double px = camera.focal_px * camera.baseline_m / config.camera.height_m * pitch_deg * kDegree;
-  return static_cast<std::int32_t>(std::min(std::ceil(px * kDisparityScale), double{kGroundReach}));
+  const double per_degree16 = pixels16_per_degree(config, camera);
+  return static_cast<std::int32_t>(std::min(std::ceil(pitch_deg * per_degree16), double{kGroundReach}));
+}
+
+double pitch_deg_of_disparity16(const VehicleConfig& config, const RectifiedGeometry& camera,
+                                std::int32_t offset16) {
+  return offset16 / pixels16_per_degree(config, camera);
 }
 
 double blind_zone_m(const VehicleConfig& config, const RectifiedGeometry& camera) {

@@ -22,6 +22,10 @@ ScoreGeometry score_geometry(const VehicleConfig& config, const RectifiedGeometr
 // kGroundReach.
 std::int32_t disparity_of_pitch16(const VehicleConfig& config, const RectifiedGeometry& camera, double pitch_deg);
 
+// The inverse: the change of pitch, degrees, that an offset of the floor's disparity stands for.
+double pitch_deg_of_disparity16(const VehicleConfig& config, const RectifiedGeometry& camera,
+                                std::int32_t offset16);
+
 // Distance from the turning centre within which the camera cannot show the floor: where the image's bottom row meets
 // it, towards the image's corners, and two cells more. Never less than planner.blind_zone_m, and just that for a camera
 // that shows no floor within prune.max_depth_m.

@@ -61,7 +61,7 @@ Matcher::Matcher(const MatcherConfig& config, double doffs, int width, int heigh
           arena.take<std::byte>(static_cast<std::size_t>(bands_) * sgm_scratch_bytes(width, config.disparities))) {}
 
 Rows Matcher::band(int index) const {
-  return {height_ * index / bands_, height_ * (index + 1) / bands_};
+  return rows_of_band(height_, bands_, index);
 }
 
 Status Matcher::match_band(int index, const ImageView<const std::uint8_t>& left) {

@@ -111,7 +111,7 @@ Pipeline::Pipeline(const VehicleConfig& config, const StereoCalibration& calibra
 }
 
 Rows Pipeline::band_rows(int band) const {
-  return {camera_.height * band / bands_, camera_.height * (band + 1) / bands_};
+  return rows_of_band(camera_.height, bands_, band);
 }
 
 Status Pipeline::rectify(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
@@ -158,7 +158,7 @@ Status Pipeline::find_ground(FrameResult& result) {
   }
   ground_offset16_ = offset;
   result.ground_offset16 = offset;
-  prune_model_ = shift_floor(mount_model_, std::int64_t{offset} << (16 - kDisparityBits));
+  prune_model_ = shift_floor(mount_model_, std::int64_t{offset} << kDisparityToQ16);
   return Status::ok;
 }
 

@@ -15,9 +15,8 @@
 
 namespace lakshya {
 
-// Maps hold pixels in Q7 fixed point (1/128 px).
-inline constexpr int kRectifyMapBits = kRectifyFractionBits;
-inline constexpr int kRectifyMapScale = 1 << kRectifyMapBits;
+// Maps hold pixels in the kernel's fixed point (1/128 px).
+inline constexpr int kRectifyMapScale = 1 << kRectifyFractionBits;
 inline constexpr int kRectifyMapMinPx = -32768;
 inline constexpr int kRectifyMapMaxPx = 32767;
 

@@ -1,7 +1,9 @@
 // `lakshya config`: prints the configuration.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace lakshya {
 

@@ -1,7 +1,9 @@
 // `lakshya plan`: from a map in a file to a direction and a speed.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace lakshya {
 

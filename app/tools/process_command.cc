@@ -11,6 +11,7 @@
 
 #include "app/core/calibration_file.h"
 #include "app/core/file_bytes.h"
+#include "app/core/geometry.h"
 #include "app/core/image_file.h"
 #include "app/core/input_error.h"
 #include "app/core/pipeline.h"
@@ -106,12 +107,6 @@ void write_results(const ProcessOptions& o, const VehicleConfig& config, const P
   folder.commit("points.ply");
 }
 
-// The change of pitch that the ground estimate stands for (kernels/ground).
-double ground_pitch_deg(const FrameResult& frame, const VehicleConfig& config, const RectifiedGeometry& camera) {
-  const double px = static_cast<double>(frame.ground_offset16) / kDisparityScale;
-  return px * config.camera.height_m / (camera.focal_px * camera.baseline_m) * 180 / std::numbers::pi;
-}
-
 void process(const ProcessOptions& o) {
   const VehicleConfig config = load_vehicle_config(o.config.config, o.config.profile, all_sets(o));
   const StereoCalibration calibration = read_calibration(o.calibration, config.camera.calibration_unit_m);
@@ -135,7 +130,7 @@ void process(const ProcessOptions& o) {
     json["baseline_m"] = pipeline.camera().baseline_m;
     json["doffs"] = pipeline.camera().doffs();
     json["ground_offset_px"] = static_cast<double>(frame.ground_offset16) / kDisparityScale;
-    json["ground_pitch_deg"] = ground_pitch_deg(frame, config, pipeline.camera());
+    json["ground_pitch_deg"] = pitch_deg_of_disparity16(config, pipeline.camera(), frame.ground_offset16);
     json["blind_zone_m"] = pipeline.blind_zone();
     json["arena_bytes"] = pipeline.arena_bytes();
     json["out"] = o.out;

@@ -1,7 +1,9 @@
 // `lakshya process`: one stereo pair to disparity, navigation map, steering decision and pictures.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace lakshya {
 

@@ -39,6 +39,11 @@ struct Rows {
   int end = 0;
 };
 
+// Band `index` of `bands` nearly equal ones that make up an image of `height` rows.
+constexpr Rows rows_of_band(int height, int bands, int index) {
+  return {height * index / bands, height * (index + 1) / bands};
+}
+
 template <class T>
 constexpr bool rows_inside(const Rows& r, const ImageView<T>& image) {
   return 0 <= r.begin && r.begin <= r.end && r.end <= image.height;

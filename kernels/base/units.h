@@ -8,6 +8,7 @@ namespace lakshya {
 // Disparity: int16, 1/16 px. Zero is a valid disparity (a point at infinity).
 inline constexpr int kDisparityBits = 4;
 inline constexpr int kDisparityScale = 1 << kDisparityBits;
+inline constexpr int kDisparityToQ16 = 16 - kDisparityBits;  // shift from 1/16 px to Q16 px
 
 // A negative disparity says why there is none.
 enum NoDisparity : std::int16_t {

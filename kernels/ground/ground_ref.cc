@@ -7,8 +7,6 @@
 namespace lakshya {
 namespace {
 
-constexpr int kToQ16 = 16 - kDisparityBits;
-
 // Index of a residual.
 std::size_t bin(std::int64_t residual) {
   return static_cast<std::size_t>(residual + kGroundReach);
@@ -42,12 +40,12 @@ bool stands_out(const Window& best, std::int64_t total, int range, std::int64_t 
 void ground_residuals_row_ref(const PruneModel& mount, int v, std::span<const std::int16_t> disparity,
                               GroundHistogram& histogram) {
   for (std::size_t i = 0; i < disparity.size(); ++i) {
-    const std::int64_t d = std::int64_t{disparity[i]} << kToQ16;
+    const std::int64_t d = std::int64_t{disparity[i]} << kDisparityToQ16;
     const std::int64_t floor = mount.floor.at(static_cast<int>(i), v);
     const std::int64_t nearest_limit = mount.min_disparity;
     if (disparity[i] <= 0 || d < nearest_limit || floor < nearest_limit || floor > mount.max_floor_disparity)
       continue;
-    const std::int64_t residual = (d - floor + (1 << (kToQ16 - 1))) >> kToQ16;
+    const std::int64_t residual = (d - floor + (1 << (kDisparityToQ16 - 1))) >> kDisparityToQ16;
     if (std::abs(residual) <= kGroundReach) ++histogram[bin(residual)];
   }
 }

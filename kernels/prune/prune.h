@@ -78,8 +78,8 @@ struct PruneModel {
 std::size_t prune_table_entries(double max_disparity_px);
 
 // Rounds the geometry into a model and fills the two tables (prune_table_entries elements each), which must outlive
-// it. bad_argument: a length or focal length not positive, tau not at least 1 mm below H, |pitch| or |roll| >= 80 degrees, a disparity of 2048 px or more;
-// scratch_too_small: a table is too short.
+// it. bad_argument: a length or focal length not positive, tau not at least 1 mm below H, |pitch| or |roll| >= 80
+// degrees, a disparity of 2048 px or more; scratch_too_small: a table is too short.
 Status build_prune_model(const PruneGeometry& geometry, std::span<std::int32_t> depth_table,
                          std::span<std::int32_t> height_table, PruneModel& model);
 

@@ -5,15 +5,13 @@
 namespace lakshya {
 namespace {
 
-constexpr int kToQ16 = 16 - kDisparityBits;  // 1/16 px to Q16 px
-
 std::size_t table_index(const PruneModel& m, std::int64_t d16) {
   const auto last = static_cast<std::int64_t>(m.depth_mm.size()) - 1;
   return static_cast<std::size_t>(std::clamp<std::int64_t>(d16, 1, last));
 }
 
 std::int32_t depth_at_q16(const PruneModel& m, std::int64_t disparity_q16) {
-  return m.depth_mm[table_index(m, (disparity_q16 + (1 << (kToQ16 - 1))) >> kToQ16)];
+  return m.depth_mm[table_index(m, (disparity_q16 + (1 << (kDisparityToQ16 - 1))) >> kDisparityToQ16)];
 }
 
 // depth * (coordinate per depth, Q32), by way of Q16 so that the product fits 64 bits.
@@ -37,7 +35,7 @@ bool above_clearance(const PruneModel& m, int u, int v, std::int64_t d, std::int
 // Where the upper and lower edge of the pixel meet the floor plane: depths from the floor's own disparity half a
 // row up and down, no farther than the map looks. A surface seen nearer than the plane hides the plane behind it.
 GroundStrip ground_strip(const PruneModel& m, int u, int v, std::int16_t disparity) {
-  const std::int64_t here = std::max(m.floor.at(u, v), std::int64_t{disparity} << kToQ16);
+  const std::int64_t here = std::max(m.floor.at(u, v), std::int64_t{disparity} << kDisparityToQ16);
   const std::int64_t half_row = m.floor.per_v / 2;
   const std::int32_t near_mm = depth_at_q16(m, here + half_row);
   const std::int32_t far_mm = depth_at_q16(m, std::max(here - half_row, m.min_disparity));
@@ -48,7 +46,7 @@ GroundStrip ground_strip(const PruneModel& m, int u, int v, std::int16_t dispari
 }  // namespace
 
 PixelClass classify_pixel(const PruneModel& m, int u, int v, std::int16_t disparity) {
-  const std::int64_t d = std::int64_t{disparity} << kToQ16;
+  const std::int64_t d = std::int64_t{disparity} << kDisparityToQ16;
   if (d < m.min_disparity || d == 0) return PixelClass::too_far;
   const std::int64_t floor = m.floor.at(u, v);
   if (floor > m.max_floor_disparity) return PixelClass::no_disparity;
