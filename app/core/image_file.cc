@@ -10,8 +10,8 @@
 namespace lakshya {
 namespace {
 
-// The largest binary PPM within the limits, with room for a header.
-constexpr std::size_t kMaxFileBytes = static_cast<std::size_t>(3 * kMaxImagePixels) + (1U << 20);
+// The largest PFM within the limits, with room for a header.
+constexpr std::size_t kMaxFileBytes = static_cast<std::size_t>(4 * kMaxImagePixels) + (1U << 20);
 
 }  // namespace
 
@@ -39,6 +39,10 @@ Image<std::uint16_t> read_gray16(const std::string& path) {
   const std::vector<std::uint8_t> bytes = read_file(path, kMaxFileBytes);
   if (is_png(bytes)) return decode_png_gray16(path, bytes);
   throw InputError(path, "image format: not a PNG image (convert it to a grey PNG)");
+}
+
+Image<float> read_pfm(const std::string& path) {
+  return decode_pfm(path, read_file(path, kMaxFileBytes));
 }
 
 }  // namespace lakshya

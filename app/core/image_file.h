@@ -30,6 +30,11 @@ Image<std::uint8_t> read_gray(const std::string& path);
 // read_gray does, and for every other kind of image.
 Image<std::uint16_t> read_gray16(const std::string& path);
 
+// A PFM file of one channel (Pf), top row first as everywhere here (the file has it last). The sign of the header's
+// scale is the byte order; its size is ignored, since files disagree about it. Any float may be in it, infinities and
+// NaN too. Throws InputError as read_gray does.
+Image<float> read_pfm(const std::string& path);
+
 // PNG files: 8-bit grey, 16-bit grey, 8-bit RGB; lossless. Written through write_file_atomically (path + ".part",
 // then renamed). Throws InputError for a size outside the limits above and when the file cannot be written.
 void write_png(const std::string& path, ImageView<const std::uint8_t> image);

@@ -6,6 +6,7 @@
 
 #include "app/core/input_error.h"
 #include "app/tools/config_command.h"
+#include "app/tools/eval_command.h"
 #include "app/tools/plan_command.h"
 #include "app/tools/process_command.h"
 
@@ -23,6 +24,7 @@ int run(int argc, char** argv) {
   app.footer("Exit code: 0 done, 1 input refused, 2 wrong usage.\nHelp on one command: lakshya COMMAND --help");
   lakshya::add_process_command(app);
   lakshya::add_plan_command(app);
+  lakshya::add_eval_command(app);
   lakshya::add_config_command(app);
   try {
     app.parse(argc, argv);

@@ -16,6 +16,11 @@ struct ConfigOptions {
 // --config, --profile, --set
 void add_config_options(CLI::App& command, ConfigOptions& options);
 
+// Matchers search a multiple of 16 disparities.
+constexpr int round_up_to_16(int n) {
+  return (n + 15) / 16 * 16;
+}
+
 // Degrees from -180 to 180; CLI::Range lets "nan" through.
 CLI::Validator angle_in_degrees();
 

@@ -45,10 +45,6 @@ struct ProcessOptions {
   bool json = false;
 };
 
-int round_up_to_16(int n) {
-  return (n + 15) / 16 * 16;
-}
-
 // The options that stand for one key each, as --set would say them.
 std::vector<std::string> all_sets(const ProcessOptions& o) {
   std::vector<std::string> sets = o.config.sets;

@@ -1,0 +1,44 @@
+#include "app/tools/disparity_estimate.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "app/core/arena.h"
+#include "app/core/input_error.h"
+#include "app/core/matcher.h"
+#include "hal/clock/monotonic_clock.h"
+
+namespace lakshya {
+
+DisparityEstimate match_pair(const MatcherConfig& config, const Image<std::uint8_t>& left,
+                             const Image<std::uint8_t>& right) {
+  constexpr double kNoDoffs = 0;  // between the images themselves
+  Arena measure;
+  (void)Matcher(config, kNoDoffs, left.width(), left.height(), kReferenceKernels, measure);
+  Arena arena(measure.used());
+  Matcher matcher(config, kNoDoffs, left.width(), left.height(), kReferenceKernels, arena);
+
+  const MonotonicClock clock;
+  const Nanoseconds start = clock.now();
+  ImageView<const std::int16_t> found;
+  const Status status = matcher.match(left.view(), right.view(), found);
+  const Nanoseconds took = clock.now() - start;
+  if (status != Status::ok) {
+    throw InputError("matcher " + config.name, std::string("cannot match these images: ") + to_string(status));
+  }
+  DisparityEstimate estimate{Image<std::int16_t>(left.width(), left.height()), static_cast<double>(took) * 1e-6};
+  for (int v = 0; v < found.height; ++v)
+    std::copy_n(found.row(v), found.width, estimate.disparity.view().row(v));
+  return estimate;
+}
+
+std::string parameters_text(const MatcherConfig& c) {
+  std::ostringstream out;
+  out << "census 9x7 centre-symmetric (" << kCensusBits << " bits), " << c.paths << " paths, P1 " << c.p1 << ", P2 "
+      << c.p2 << ", uniqueness " << c.uniqueness_percent << " %, left-right " << c.left_right_max_px
+      << " px, texture " << c.texture_threshold << ", support " << c.support_min_percent << " % of "
+      << 2 * c.support_radius_px + 1 << "x" << 2 * c.support_radius_px + 1;
+  return out.str();
+}
+
+}  // namespace lakshya
