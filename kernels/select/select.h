@@ -14,11 +14,12 @@
 // check, quadratic sub-pixel).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
+#include "kernels/base/search_range.h"
 #include "kernels/base/status.h"
-#include "kernels/hamming/hamming.h"
 
 namespace lakshya {
 

@@ -16,8 +16,8 @@
 #include <span>
 
 #include "kernels/base/image_view.h"
+#include "kernels/base/search_range.h"
 #include "kernels/base/status.h"
-#include "kernels/hamming/hamming.h"
 #include "kernels/select/select.h"
 
 namespace lakshya {

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "kernels/base/units.h"
+#include "kernels/hamming/hamming.h"
 #include "kernels/sgm/sgm.h"
 
 namespace lakshya {

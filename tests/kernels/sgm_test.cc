@@ -9,6 +9,7 @@
 
 #include "kernels/base/units.h"
 #include "kernels/census/census.h"
+#include "kernels/hamming/hamming.h"
 #include "tests/support/test_image.h"
 
 namespace lakshya {
