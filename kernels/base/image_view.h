@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <type_traits>
 
 namespace lakshya {
@@ -31,6 +32,11 @@ struct ImageView {
 template <class A, class B>
 constexpr bool same_size(const ImageView<A>& a, const ImageView<B>& b) {
   return a.width == b.width && a.height == b.height;
+}
+
+template <class T>
+constexpr std::span<T> row_span(const ImageView<T>& image, int v) {
+  return {image.row(v), static_cast<std::size_t>(image.width)};
 }
 
 // Half-open range of image rows [begin, end): kernels work on row ranges, threads belong to the pipeline.

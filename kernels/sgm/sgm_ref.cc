@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "kernels/base/scratch.h"
 #include "kernels/base/units.h"
 #include "kernels/hamming/hamming.h"
 #include "kernels/sgm/sgm.h"
@@ -7,12 +8,7 @@
 namespace lakshya {
 namespace {
 
-constexpr std::size_t kAlignment = 64;
 constexpr int kTopPaths = 3;  // top, top-left, top-right
-
-constexpr std::size_t align_up(std::size_t bytes) {
-  return (bytes + kAlignment - 1) / kAlignment * kAlignment;
-}
 
 // The rows that one band keeps.
 struct BandRows {
@@ -24,26 +20,20 @@ struct BandRows {
   std::span<std::int16_t> select;
 };
 
-std::size_t lay_out(int width, int disparities, std::byte* base, BandRows* rows) {
-  std::size_t used = 0;
-  const auto take = [&]<class T>(std::span<T>* out, std::size_t n) {
-    if (rows != nullptr) *out = {reinterpret_cast<T*>(base + used), n};
-    used += align_up(n * sizeof(T));
-  };
-  BandRows sizes_only;
-  BandRows& r = rows != nullptr ? *rows : sizes_only;
-  const auto pixels = static_cast<std::size_t>(width);
+BandRows lay_out(int width, int disparities, ScratchLayout& scratch) {
   const auto candidates = static_cast<std::size_t>(disparities);
-  take(&r.cost, pixels * candidates);
-  take(&r.sums, pixels * candidates);
+  const std::size_t row = static_cast<std::size_t>(width) * candidates;
+  BandRows r;
+  r.cost = scratch.take<std::uint8_t>(row);
+  r.sums = scratch.take<std::uint16_t>(row);
   for (int path = 0; path < kTopPaths; ++path) {
-    take(&r.above[path], pixels * candidates);
-    take(&r.current[path], pixels * candidates);
+    r.above[path] = scratch.take<std::uint8_t>(row);
+    r.current[path] = scratch.take<std::uint8_t>(row);
   }
-  take(&r.sideways[0], candidates);
-  take(&r.sideways[1], candidates);
-  take(&r.select, select_scratch_elements(width));
-  return used;
+  for (std::span<std::uint8_t>& pixel : r.sideways)
+    pixel = scratch.take<std::uint8_t>(candidates);
+  r.select = scratch.take<std::int16_t>(select_scratch_elements(width));
+  return r;
 }
 
 // L_r of one pixel; `previous` empty where the path starts.
@@ -122,11 +112,6 @@ class Band {
   BandRows rows_;
 };
 
-template <class T>
-std::span<T> row_span(const ImageView<T>& image, int v) {
-  return {image.row(v), static_cast<std::size_t>(image.width)};
-}
-
 bool params_ok(const SgmParams& p, int width) {
   return search_range_ok(p.range, width) && (p.paths == 3 || p.paths == 5) && 0 <= p.p1 && p.p1 <= p.p2 &&
          p.p2 <= 200 && p.warmup_rows >= 0;
@@ -135,7 +120,9 @@ bool params_ok(const SgmParams& p, int width) {
 }  // namespace
 
 std::size_t sgm_scratch_bytes(int width, int disparities) {
-  return lay_out(width, disparities, nullptr, nullptr);
+  ScratchLayout layout;
+  lay_out(width, disparities, layout);
+  return layout.used();
 }
 
 Status sgm_ref(ImageView<const std::uint32_t> left, ImageView<const std::uint32_t> right,
@@ -149,9 +136,8 @@ Status sgm_ref(ImageView<const std::uint32_t> left, ImageView<const std::uint32_
   }
   if (scratch.size() < sgm_scratch_bytes(left.width, params.range.disparities)) return Status::scratch_too_small;
 
-  BandRows band_rows;
-  lay_out(left.width, params.range.disparities, scratch.data(), &band_rows);
-  Band band(params, band_rows);
+  ScratchLayout layout(scratch.data());
+  Band band(params, lay_out(left.width, params.range.disparities, layout));
   const int first = std::max(descriptor_rows.begin, rows.begin - params.warmup_rows);
   const int last = std::min(descriptor_rows.end, rows.end);
   for (int v = rows.begin; v < rows.end; ++v) {

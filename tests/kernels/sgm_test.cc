@@ -4,29 +4,19 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <new>
 #include <vector>
 
 #include "kernels/base/units.h"
 #include "kernels/census/census.h"
 #include "kernels/hamming/hamming.h"
 #include "tests/support/test_image.h"
+#include "tests/support/test_scratch.h"
 
 namespace lakshya {
 namespace {
 
 using test::PaddedImage;
-
-struct Scratch {
-  explicit Scratch(std::size_t bytes)
-      : size(bytes), data(static_cast<std::byte*>(::operator new (bytes, std::align_val_t{64}))) {}
-  ~Scratch() { ::operator delete (data, std::align_val_t{64}); }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  std::span<std::byte> span() const { return {data, size}; }
-  std::size_t size;
-  std::byte* data;
-};
+using test::Scratch;
 
 SgmParams params_for(int width, int disparities) {
   SgmParams p;
@@ -234,7 +224,7 @@ TEST(Sgm, RefusesWrongArguments) {
     return sgm_ref(codes.view(), codes.view(), textured.view(), {0, 10}, p, rows, bytes, out.view());
   };
   SgmParams p = params_for(20, 16);
-  EXPECT_EQ(run(p, {0, 10}, scratch.span().first(scratch.size - 1)), Status::scratch_too_small);
+  EXPECT_EQ(run(p, {0, 10}, scratch.span().first(scratch.span().size() - 1)), Status::scratch_too_small);
   EXPECT_EQ(run(p, {0, 11}, scratch.span()), Status::bad_argument);
   p.p1 = 41;
   EXPECT_EQ(run(p, {0, 10}, scratch.span()), Status::bad_argument);
