@@ -26,7 +26,8 @@ inline constexpr std::int64_t kMaxImagePixels = 128'000'000;
 // JPEG that libjpeg-turbo would only warn about counts as damaged.
 Image<std::uint8_t> read_gray(const std::string& path);
 
-// A one-channel grey PNG of 16 bits (KITTI disparity) or 8 bits (the values as they are). Throws InputError as
+// A grey PNG of 16 bits (KITTI disparity) or 8 bits (the values as they are; also as a palette or three channels that
+// are equal everywhere). Throws InputError as
 // read_gray does, and for every other kind of image.
 Image<std::uint16_t> read_gray16(const std::string& path);
 

@@ -233,12 +233,36 @@ Image<std::uint8_t> decode_png_gray(const std::string& path, Bytes bytes) {
   return to_gray(rgb, reader.width(), reader.height());
 }
 
+namespace {
+
+// Grey values that were saved as colour or as a palette.
+Image<std::uint16_t> equal_channels(PngReader& reader) {
+  reader.expand_to_8_bits();
+  Image<std::uint16_t> image(reader.width(), reader.height());
+  const auto channels = static_cast<std::size_t>(reader.channels());
+  const std::size_t row = channels * static_cast<std::size_t>(reader.width());
+  std::vector<std::uint8_t> samples(row * static_cast<std::size_t>(reader.height()));
+  reader.read_rows(samples.data(), row);
+  std::uint16_t* out = image.view().data;
+  for (std::size_t i = 0; i < samples.size(); i += channels) {
+    if (samples[i] != samples[i + channels - 1] || samples[i] != samples[i + channels / 2]) {
+      reader.refuse("is a colour image (convert it to 16-bit grey)");
+    }
+    *out++ = samples[i];
+  }
+  return image;
+}
+
+}  // namespace
+
 Image<std::uint16_t> decode_png_gray16(const std::string& path, Bytes bytes) {
   PngReader reader(path, bytes);
   reader.read_header();
-  if (reader.color_type() != PNG_COLOR_TYPE_GRAY || reader.bit_depth() < 8) {
+  const bool gray = reader.color_type() == PNG_COLOR_TYPE_GRAY;
+  if (gray ? reader.bit_depth() < 8 : reader.bit_depth() == 16) {
     reader.refuse("is not a grey image of 16 or 8 bits (convert it to 16-bit grey)");
   }
+  if (!gray) return equal_channels(reader);
   reader.keep_samples();
   const auto width = static_cast<std::size_t>(reader.width());
   Image<std::uint16_t> image(reader.width(), reader.height());

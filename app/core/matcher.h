@@ -1,4 +1,8 @@
-// Rectified pair to disparity: descriptors, semi-global matching band by band, local support.
+// Rectified pair to disparity: descriptors, matching band by band, local support. The matchers differ in descriptor
+// and aggregation only (docs/contract.md section 2):
+//   sgm     census codes, semi-global aggregation
+//   census  census codes, square window
+//   sad     edges, square window (the paper's)
 #pragma once
 
 #include <span>
@@ -29,17 +33,33 @@ class Matcher {
                ImageView<const std::int16_t>& disparity);
 
  private:
+  enum class Method { sgm, census, sad };
+
+  // Codes or edges of one image; the other stays empty.
+  struct Descriptors {
+    ImageView<std::uint32_t> codes;
+    ImageView<std::uint8_t> edges;
+  };
+
+  static Method method_of(const std::string& name);
   Rows band(int index) const;
+  Descriptors take_descriptors(int width, Arena& arena) const;
+  std::size_t scratch_bytes(int width) const;
+  Status describe_band(int index, const ImageView<const std::uint8_t>& image, const Descriptors& out) const;
   Status match_band(int index, const ImageView<const std::uint8_t>& left);
 
   const KernelTable* kernels_;
   int height_;
   int bands_;
   int texture_threshold_;
-  SgmParams sgm_;
+  Method method_;
+  decltype(&edge_log_ref) edge_;  // sad
+  Rows descriptor_rows_;
+  SgmParams sgm_;      // sgm
+  BlockParams block_;  // census, sad
   SupportParams support_;
-  ImageView<std::uint32_t> census_left_;
-  ImageView<std::uint32_t> census_right_;
+  Descriptors left_;
+  Descriptors right_;
   ImageView<std::uint8_t> textured_;
   ImageView<std::int16_t> matched_;
   ImageView<std::int16_t> supported_;

@@ -34,6 +34,9 @@ struct MatcherConfig {
   int support_max_difference = 16;  // 1/16 px
   int bands = 4;
   int band_warmup_rows = 16;
+  int window_radius_px = 5;  // sad, census
+  std::string edge = "log";  // sad
+  int edge_cap = 31;         // sad
 };
 
 struct PruneConfig {

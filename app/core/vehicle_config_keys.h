@@ -25,7 +25,8 @@ struct Range {
 };
 
 using Names = std::span<const std::string_view>;
-inline constexpr std::array<std::string_view, 1> kMatcherNames{"sgm"};
+inline constexpr std::array<std::string_view, 3> kMatcherNames{"sgm", "census", "sad"};
+inline constexpr std::array<std::string_view, 2> kEdgeNames{"log", "sobel"};
 inline constexpr std::array<std::string_view, 1> kPlannerNames{"vfh+"};
 inline constexpr std::array<std::string_view, 2> kUnknownNames{"stop", "slow"};
 
@@ -95,15 +96,18 @@ void visit_camera_keys(Camera& c, Visitor& v) {
 
 template <class Matcher, class Visitor>
 void visit_matcher_keys(Matcher& c, Visitor& v) {
-  v(Key{"matcher.name", "", "Matching method (sgm: census cost, semi-global aggregation)"}, c.name,
-    Names{kMatcherNames});
+  v(Key{"matcher.name", "",
+        "Matching method (sgm: census cost, semi-global aggregation; census, sad: square window of census codes, "
+        "or of "
+        "edges as in the paper)"},
+    c.name, Names{kMatcherNames});
   v(Key{"matcher.disparities", "px", "Number of disparities searched; more of them see nearer"}, c.disparities,
     Range{16, 512, 16});
   v(Key{"matcher.min_disparity", "px", "Smallest disparity searched, doffs included"}, c.min_disparity,
     Range{0, 1024});
-  v(Key{"matcher.paths", "", "Aggregation paths: 5, or 3 without the two diagonals"}, c.paths, Range{3, 5, 2});
-  v(Key{"matcher.p1", "", "Penalty for a disparity step of 1 px along a path (P1)"}, c.p1, Range{0, 200});
-  v(Key{"matcher.p2", "", "Penalty for a larger disparity step (P2), at least p1"}, c.p2, Range{0, 200});
+  v(Key{"matcher.paths", "", "sgm: aggregation paths, 5, or 3 without the two diagonals"}, c.paths, Range{3, 5, 2});
+  v(Key{"matcher.p1", "", "sgm: penalty for a disparity step of 1 px along a path (P1)"}, c.p1, Range{0, 200});
+  v(Key{"matcher.p2", "", "sgm: penalty for a larger disparity step (P2), at least p1"}, c.p2, Range{0, 200});
   v(Key{"matcher.uniqueness_percent", "%",
         "Margin by which the best cost must beat every other that is not its neighbour"},
     c.uniqueness_percent, Range{0, 50});
@@ -124,8 +128,14 @@ void visit_matcher_keys(Matcher& c, Visitor& v) {
   v(Key{"matcher.bands", "",
         "Horizontal bands of the image, matched independently; part of the result, not of the machine"},
     c.bands, Range{1, 64});
-  v(Key{"matcher.band_warmup_rows", "rows", "Rows above a band that are aggregated first"}, c.band_warmup_rows,
+  v(Key{"matcher.band_warmup_rows", "rows", "sgm: rows above a band that are aggregated first"}, c.band_warmup_rows,
     Range{0, 256});
+  v(Key{"matcher.window_radius_px", "px", "census, sad: half width of the square window that is compared"},
+    c.window_radius_px, Range{0, 15});
+  v(Key{"matcher.edge", "",
+        "sad: edge filter before the comparison (log: Laplacian of Gaussian; sobel: along the row)"},
+    c.edge, Names{kEdgeNames});
+  v(Key{"matcher.edge_cap", "", "sad: edges stronger than this count as this strong"}, c.edge_cap, Range{1, 34});
 }
 
 template <class Prune, class Visitor>

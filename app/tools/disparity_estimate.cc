@@ -33,11 +33,24 @@ DisparityEstimate match_pair(const MatcherConfig& config, const Image<std::uint8
 }
 
 std::string parameters_text(const MatcherConfig& c) {
+  const auto square = [](int radius) {
+    const std::string side = std::to_string(2 * radius + 1);
+    return side + "x" + side;
+  };
   std::ostringstream out;
-  out << "census 9x7 centre-symmetric (" << kCensusBits << " bits), " << c.paths << " paths, P1 " << c.p1 << ", P2 "
-      << c.p2 << ", uniqueness " << c.uniqueness_percent << " %, left-right " << c.left_right_max_px
-      << " px, texture " << c.texture_threshold << ", support " << c.support_min_percent << " % of "
-      << 2 * c.support_radius_px + 1 << "x" << 2 * c.support_radius_px + 1;
+  if (c.name == "sad") {
+    out << "absolute differences of " << (c.edge == "log" ? "Laplacian-of-Gaussian" : "x-Sobel") << " edges, cap "
+        << c.edge_cap;
+  } else {
+    out << "census 9x7 centre-symmetric (" << kCensusBits << " bits)";
+  }
+  if (c.name == "sgm") {
+    out << ", " << c.paths << " paths, P1 " << c.p1 << ", P2 " << c.p2;
+  } else {
+    out << ", window " << square(c.window_radius_px);
+  }
+  out << ", uniqueness " << c.uniqueness_percent << " %, left-right " << c.left_right_max_px << " px, texture "
+      << c.texture_threshold << ", support " << c.support_min_percent << " % of " << square(c.support_radius_px);
   return out.str();
 }
 

@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "app/core/input_error.h"
+#include "app/tools/accuracy_command.h"
 #include "app/tools/config_command.h"
 #include "app/tools/eval_command.h"
 #include "app/tools/plan_command.h"
@@ -25,6 +26,7 @@ int run(int argc, char** argv) {
   lakshya::add_process_command(app);
   lakshya::add_plan_command(app);
   lakshya::add_eval_command(app);
+  lakshya::add_accuracy_command(app);
   lakshya::add_config_command(app);
   try {
     app.parse(argc, argv);

@@ -62,7 +62,8 @@ Pair render() {
     for (int u = 0; u < kWidth; ++u) {
       // Texture of the surface point that the right pixel sees, by search along the row: nearest surface first.
       double value = 128;
-      for (double d = 47; d >= 0; d -= 0.05) {
+      for (int step = 47 * 20; step >= 0; --step) {
+        const double d = step * 0.05;
         const double from = u + d;
         const int nearest = static_cast<int>(std::lround(from));
         if (nearest >= kWidth - 1 || std::abs(scene_disparity(nearest, v) - d) > 0.026) continue;
