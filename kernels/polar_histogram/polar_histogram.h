@@ -1,15 +1,19 @@
 // Polar obstacle histogram about the turning centre: docs/contract.md section 5.
-// Source: I. Ulrich and J. Borenstein, "VFH+: Reliable Obstacle Avoidance for Fast Mobile Robots", ICRA 1998,
-// section 2 (the primary polar histogram, equations 1 to 6).
+// Sources: I. Ulrich and J. Borenstein, "VFH+: Reliable Obstacle Avoidance for Fast Mobile Robots", ICRA 1998,
+// section 2 (the primary polar histogram, equations 1 to 6); for PolarWeight::linear J. Borenstein and Y. Koren, "The
+// Vector Field Histogram - Fast Obstacle Avoidance for Mobile Robots", IEEE Transactions on Robotics and Automation
+// 7(3), 1991, section on the first data reduction (m = c^2 (a - b d), summed per sector).
 //
 // 72 sectors of 5 degrees, counter-clockwise; sector k is centred on 5 k degrees from straight ahead, so that
 // sector 18 is left, 36 behind, 71 is 5 degrees to the right. Turning centre: the grid's origin, the near edge of
 // row 0, half way across.
 //
 // A cell whose centre lies at distance d <= r_a and bearing beta adds
-//   weight = round(1000 (1 - d^2 / r_a^2))                          (c = 1, a - b r_a^2 = 0; half rounds up)
+//   squared: weight = round(1000 (1 - d^2 / r_a^2))                 (c = 1, a - b r_a^2 = 0; half rounds up)
+//   linear:  weight = round(1000 (1 - d / r_a))                     (c = 1, a - b r_a = 0; half rounds up)
 // to every sector whose centre lies in [beta - gamma, beta + gamma], sin(gamma) = enlargement / d; for
-// d <= enlargement to the half-plane, [beta - 90, beta + 90] degrees; always to the sector that holds beta.
+// d <= enlargement to the half-plane, [beta - 90, beta + 90] degrees; always to the sector that holds beta. The
+// histogram of 1991 has no enlargement: with 0 a cell adds to the sector that holds beta and to no other.
 // Both rules are one integer test: the sector's centre ray points towards the cell (dot >= 0) and passes it within
 // `enlargement` (|cross| <= enlargement), with sines rounded to 2^-30. Tables are therefore equal on every machine,
 // and mirrored about straight ahead.
@@ -36,9 +40,12 @@ inline constexpr int kPolarMaxSide = 2000;  // cells
 inline constexpr std::int32_t kPolarMaxCellMm = 10'000;
 inline constexpr std::int32_t kPolarMaxActiveRadiusMm = 1'000'000;
 
+enum class PolarWeight : std::uint8_t { squared, linear };
+
 struct PolarParams {
   std::int32_t active_radius_mm = 5000;  // r_a, 1 to kPolarMaxActiveRadiusMm
   std::int32_t enlargement_mm = 450;     // r_robot + d_safe, 0 to kPolarMaxActiveRadiusMm
+  PolarWeight weight = PolarWeight::squared;
 };
 
 // What one obstacle cell adds: `weight` to `count` sectors from `first` counter-clockwise. Zeros beyond r_a.

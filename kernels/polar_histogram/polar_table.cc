@@ -15,6 +15,7 @@ struct Point {
 struct Reach {
   std::int64_t active = 0;
   std::int64_t enlargement = 0;
+  PolarWeight weight = PolarWeight::squared;
 };
 
 constexpr std::int64_t kUnit = std::int64_t{1} << 30;
@@ -57,10 +58,33 @@ std::int64_t square_distance(const Point& p) {
   return p.forward * p.forward + p.left * p.left;
 }
 
-std::uint16_t weight_at(std::int64_t square, std::int64_t active) {
+std::uint16_t squared_weight(std::int64_t square, std::int64_t active) {
   const std::int64_t square_active = active * active;
   return static_cast<std::uint16_t>((2LL * kPolarMaxWeight * (square_active - square) + square_active) /
                                     (2 * square_active));
+}
+
+constexpr std::uint64_t squared(std::uint64_t x) {
+  return x * x;
+}
+
+// The largest w with w <= 1000 (1 - d / r_a) + 1/2, that is 2000 d <= (2001 - 2 w) r_a; both sides squared, so that
+// no root is needed. The squares stay below 2^64 for every r_a that is allowed.
+std::uint16_t linear_weight(std::int64_t square, std::int64_t active) {
+  constexpr std::uint32_t kTwice = 2U * kPolarMaxWeight;
+  const std::uint64_t wanted = squared(kTwice) * static_cast<std::uint64_t>(square);
+  std::uint32_t weight = 0;
+  for (std::uint32_t bit = 512; bit > 0; bit /= 2) {
+    const std::uint32_t larger = weight + bit;
+    if (larger > kPolarMaxWeight) continue;
+    if (wanted <= squared((kTwice + 1 - 2 * larger) * static_cast<std::uint64_t>(active))) weight = larger;
+  }
+  return static_cast<std::uint16_t>(weight);
+}
+
+std::uint16_t weight_at(std::int64_t square, const Reach& reach) {
+  return reach.weight == PolarWeight::linear ? linear_weight(square, reach.active)
+                                             : squared_weight(square, reach.active);
 }
 
 PolarEntry entry_at(const Point& p, const Reach& reach) {
@@ -73,8 +97,7 @@ PolarEntry entry_at(const Point& p, const Reach& reach) {
     ++left;
   while (reaches_sector(p, middle + kPolarSectors - right - 1, reach.enlargement))
     ++right;
-  return {weight_at(square, reach.active),
-          static_cast<std::uint8_t>((middle + kPolarSectors - right) % kPolarSectors),
+  return {weight_at(square, reach), static_cast<std::uint8_t>((middle + kPolarSectors - right) % kPolarSectors),
           static_cast<std::uint8_t>(right + 1 + left)};
 }
 
@@ -114,7 +137,7 @@ Status build_polar_table(const GridGeometry& g, const PolarParams& params, std::
   if (entries == 0 || !usable(params)) return Status::bad_argument;
   if (table.size() != entries) return Status::size_mismatch;
 
-  const Reach reach{2LL * params.active_radius_mm, 2LL * params.enlargement_mm};
+  const Reach reach{2LL * params.active_radius_mm, 2LL * params.enlargement_mm, params.weight};
   for (int r = 0; r < g.rows; ++r) {
     const auto row = table.subspan(static_cast<std::size_t>(r) * static_cast<std::size_t>(g.cols));
     for (int c = 0; 2 * c < g.cols; ++c) {

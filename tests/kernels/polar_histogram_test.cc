@@ -62,6 +62,23 @@ TEST(PolarTable, WithoutEnlargementOneSectorHoldsTheCell) {
   expect_entry(at(table, kOdd, 4, 5), entry(798, 0, 1));
 }
 
+TEST(PolarTable, HandComputedLinearWeights) {
+  const auto table = table_of(kOdd, {1000, 0, PolarWeight::linear});
+  expect_entry(at(table, kOdd, 0, 5), entry(950, 0, 1));   // 50 ahead
+  expect_entry(at(table, kOdd, 4, 5), entry(550, 0, 1));   // 450 ahead
+  expect_entry(at(table, kOdd, 4, 0), entry(327, 10, 1));  // 672.7 away: 327.3
+  expect_entry(at(table, kOdd, 4, 10), entry(327, 62, 1));
+  expect_entry(at(table, kOdd, 9, 1), entry(0, 0, 0));  // 1030.8 away
+  // 1001 of 2000 away: 499.5, half rounds up.
+  const GridGeometry fine{.rows = 501, .cols = 1, .cell_mm = 2};
+  expect_entry(at(table_of(fine, {2000, 0, PolarWeight::linear}), fine, 500, 0), entry(500, 0, 1));
+  // The cell that ends the active radius, and the limits: 2000 cells of 500 mm in 1 km.
+  const GridGeometry large{.rows = 2000, .cols = 1, .cell_mm = 500};
+  const auto far = table_of(large, {kPolarMaxActiveRadiusMm, 0, PolarWeight::linear});
+  for (int r = 0; r < large.rows; ++r)
+    ASSERT_EQ(at(far, large, r, 0).weight, (4 * 1000 - (2 * r + 1) + 2) / 4);  // d / r_a = (2 r + 1) / 4000
+}
+
 TEST(PolarTable, HalfPlaneBesideTheVehicle) {
   // 50 ahead, 100 left: 63.4 deg, inside the enlargement of 200: -26.6 to 153.4 deg, centres -25 to 150.
   const auto table = table_of(kOdd, {.active_radius_mm = 1000, .enlargement_mm = 200});
