@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "app/core/vehicle_config.h"
+#include "app/nav/vfh.h"
 
 namespace lakshya {
 
@@ -27,7 +28,7 @@ struct Range {
 using Names = std::span<const std::string_view>;
 inline constexpr std::array<std::string_view, 3> kMatcherNames{"sgm", "census", "sad"};
 inline constexpr std::array<std::string_view, 2> kEdgeNames{"log", "sobel"};
-inline constexpr std::array<std::string_view, 1> kPlannerNames{"vfh+"};
+inline constexpr std::array<std::string_view, 2> kPlannerNames{"vfh+", "vfh"};
 inline constexpr std::array<std::string_view, 2> kUnknownNames{"stop", "slow"};
 
 struct Group {
@@ -188,7 +189,10 @@ void visit_score_keys(Score& c, Visitor& v) {
 
 template <class Planner, class Visitor>
 void visit_planner_keys(Planner& c, Visitor& v) {
-  v(Key{"planner.name", "", "Planning method (vfh+: Ulrich and Borenstein 1998)"}, c.name, Names{kPlannerNames});
+  v(Key{"planner.name", "",
+        "Planning method (vfh+: Ulrich and Borenstein 1998; vfh: Borenstein and Koren 1991, without the vehicle's "
+        "size)"},
+    c.name, Names{kPlannerNames});
   v(Key{"planner.active_radius_m", "m", "Obstacles farther from the turning centre than this are ignored (r_a)"},
     c.active_radius_m, Range{0.5, 100});
   v(Key{"planner.threshold_low", "", "Histogram value below which a blocked sector becomes free"}, c.threshold_low,
@@ -214,6 +218,16 @@ void visit_planner_keys(Planner& c, Visitor& v) {
     c.unknown, Names{kUnknownNames});
   v(Key{"planner.unknown_speed_mps", "m/s", "Creeping speed towards unknown cells, used by unknown: slow"},
     c.unknown_speed_mps, Range{0, 5});
+  v(Key{"planner.vfh_smoothing", "sectors",
+        "vfh: neighbours to either side that a sector's density is smoothed with (l); 0: none"},
+    c.vfh_smoothing, Range{0, kMaxSmoothing});
+  v(Key{"planner.vfh_threshold", "",
+        "vfh: smoothed density above which a sector is blocked; one obstacle cell at distance 0 gives 545 with l = "
+        "5"},
+    c.vfh_threshold, Range{1, 100000});
+  v(Key{"planner.vfh_stop_density", "",
+        "vfh: smoothed density straight ahead at which the speed becomes 0 (h_m), in proportion below it"},
+    c.vfh_stop_density, Range{1, 1000000});
 }
 
 template <class Vehicle, class Visitor>

@@ -6,7 +6,7 @@
 namespace lakshya {
 
 struct PlannerParams {
-  std::string name = "vfh+";
+  std::string name = "vfh+";       // vfh+ | vfh
   double active_radius_m = 5.0;    // r_a: obstacles farther than this do not enter the histogram
   int threshold_low = 80;          // histogram value below which a blocked sector becomes free
   int threshold_high = 120;        // ... above which a free sector becomes blocked (1000 = a cell at distance 0)
@@ -18,6 +18,9 @@ struct PlannerParams {
   double blind_zone_m = 1.5;       // unknown cells nearer than this do not stop the vehicle
   std::string unknown = "stop";    // stop | slow: what an unknown cell ahead does
   double unknown_speed_mps = 0.2;  // slow: creeping speed towards unknown cells
+  int vfh_smoothing = 5;           // l
+  int vfh_threshold = 250;         // smoothed density above which a sector is no valley
+  int vfh_stop_density = 10'000;   // h_m: smoothed density ahead at which the speed is 0
 };
 
 struct VehicleParams {

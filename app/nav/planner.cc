@@ -34,16 +34,34 @@ DirectionCosts costs_of(const PlannerParams& p) {
           .wide_opening_sectors = p.wide_opening_sectors};
 }
 
+bool is_vfh(const PlannerParams& p) {
+  return p.name == "vfh";
+}
+
+bool usable(const PlannerParams& p) {
+  return (p.name == "vfh+" || is_vfh(p)) && (p.unknown == "stop" || p.unknown == "slow") && p.vfh_smoothing >= 0 &&
+         p.vfh_smoothing <= kMaxSmoothing && p.vfh_stop_density > 0;
+}
+
 }  // namespace
+
+Thresholds histogram_thresholds(const PlannerParams& params) {
+  if (is_vfh(params)) return {params.vfh_threshold, params.vfh_threshold};
+  return {params.threshold_low, params.threshold_high};
+}
 
 Status Planner::configure(const PlannerParams& params, const VehicleParams& vehicle, const GridGeometry& geometry,
                           std::span<PolarEntry> table) {
-  if (params.name != "vfh+" || (params.unknown != "stop" && params.unknown != "slow")) return Status::bad_argument;
+  if (!usable(params)) return Status::bad_argument;
   const double enlargement_m = vehicle.radius_m + vehicle.safety_distance_m;
   PolarParams polar;
   if (!millimetres(params.active_radius_m, polar.active_radius_mm) ||
       !millimetres(enlargement_m, polar.enlargement_mm))
     return Status::bad_argument;
+  if (is_vfh(params)) {
+    polar.enlargement_mm = 0;
+    polar.weight = PolarWeight::linear;
+  }
   const Status built = build_polar_table(geometry, polar, table);
   if (built != Status::ok) return built;
 
@@ -57,6 +75,7 @@ Status Planner::configure(const PlannerParams& params, const VehicleParams& vehi
               .active_radius_m = params.active_radius_m};
   governor_ = governor_of(vehicle);
   creep_ = params.unknown == "slow";
+  is_vfh_ = is_vfh(params);
   return Status::ok;
 }
 
@@ -68,24 +87,19 @@ Status Planner::plan(ImageView<const std::uint8_t> type, const PlanInput& input,
   Plan next;
   const Status summed = polar_histogram_ref(type, table_, next.histogram, window_);
   if (summed != Status::ok) return summed;
-  turn_with_vehicle(state.binary, input.heading_change);
-  state.binary.blocked =
-      binary_histogram(next.histogram, state.binary.blocked, params_.threshold_low, params_.threshold_high);
-  next.binary = state.binary.blocked;
+  block_sectors(input.heading_change, state, next);
   next.masked = mask_turning_circles(next.binary, type, geometry_, circles_);
   choose_sectors(type, next);
   next.openings = find_openings(next.selectable, next.masked);
 
-  const Wishes wishes{.target = input.target, .heading = input.heading, .previous = input.previous};
-  const std::optional<double> chosen = choose_direction(next.openings, next.selectable, wishes, costs_of(params_));
-  if (chosen) {
+  if (const std::optional<double> chosen = choose(input, next)) {
     next.blocked = false;
     next.direction = *chosen;
     const ClearDistance clear =
         clear_distance(type, geometry_, next.direction, params_.blind_zone_m, vehicle_.radius_m);
     next.clear_distance_m = clear.metres;
     next.clear_end = clear.end;
-    next.speed_mps = speed_towards(next.direction, speed_along(type, next));
+    next.speed_mps = speed_towards(next.direction, std::min(speed_along(type, next), speed_limit(input, next)));
     next.turn_rate_rps = turn_rate(next.direction, vehicle_.steering_gain, radians(vehicle_.max_turn_rate_dps));
     next.wheels = wheel_speeds(next.speed_mps, next.turn_rate_rps, vehicle_.track_m);
   } else {
@@ -93,6 +107,30 @@ Status Planner::plan(ImageView<const std::uint8_t> type, const PlanInput& input,
   }
   plan = next;
   return Status::ok;
+}
+
+void Planner::block_sectors(double heading_change, PlanState& state, Plan& plan) const {
+  const Thresholds thresholds = histogram_thresholds(params_);
+  if (is_vfh_) {
+    plan.histogram = smoothed_histogram(plan.histogram, params_.vfh_smoothing);
+    plan.binary = binary_histogram(plan.histogram, {}, thresholds.low, thresholds.high);
+    return;
+  }
+  turn_with_vehicle(state.binary, heading_change);
+  state.binary.blocked = binary_histogram(plan.histogram, state.binary.blocked, thresholds.low, thresholds.high);
+  plan.binary = state.binary.blocked;
+}
+
+std::optional<double> Planner::choose(const PlanInput& input, const Plan& plan) const {
+  if (is_vfh_) return choose_in_valley(plan.openings, plan.selectable, input.target, params_.wide_opening_sectors);
+  const Wishes wishes{.target = input.target, .heading = input.heading, .previous = input.previous};
+  return choose_direction(plan.openings, plan.selectable, wishes, costs_of(params_));
+}
+
+double Planner::speed_limit(const PlanInput& input, const Plan& plan) const {
+  if (!is_vfh_) return vehicle_.max_speed_mps;
+  const std::uint32_t ahead = plan.histogram[sector_index(sector_of(input.heading))];
+  return density_speed(ahead, params_.vfh_stop_density, vehicle_.max_speed_mps);
 }
 
 void Planner::choose_sectors(ImageView<const std::uint8_t> type, Plan& plan) const {

@@ -1,5 +1,8 @@
 // From a navigation map to a command, one frame at a time: docs/contract.md section 5.
-// VFH+ chooses a direction, the clear distance along it limits the speed, steering turns both into wheel speeds.
+// VFH+ or VFH (PlannerParams::name) chooses a direction, the clear distance along it limits the speed, steering turns
+// both into wheel speeds. VFH differs in the histogram, the choice within the openings and one more limit of the
+// speed (vfh.h); it has no hysteresis and looks at neither heading (but for the speed) nor previous choice. What is
+// said here about unseen and unknown cells, the turning circles and the governor holds for both.
 //
 // Directions are radians counter-clockwise from straight ahead. Distances are from the turning centre, so that the
 // vehicle's radius is added to its stop_margin_m.
@@ -19,6 +22,7 @@
 #include "app/nav/params.h"
 #include "app/nav/speed_governor.h"
 #include "app/nav/steering.h"
+#include "app/nav/vfh.h"
 #include "app/nav/vfh_plus.h"
 #include "kernels/base/image_view.h"
 #include "kernels/base/nav_grid.h"
@@ -35,17 +39,17 @@ struct PlanInput {
   double heading_change = 0;  // turned since the last plan, counter-clockwise positive
 };
 
-// What one frame leaves to the next. A new one starts free.
+// What one frame of VFH+ leaves to the next. A new one starts free.
 struct PlanState {
   BinaryHistogram binary;
 };
 
 struct Plan {
-  PolarHistogram histogram{};
-  SectorMask binary{};      // blocked after hysteresis
-  SectorMask masked{};      // ... and after the turning circles
-  SectorMask seen{};        // reached by the camera's view or the map's memory
-  SectorMask selectable{};  // seen and not masked
+  PolarHistogram histogram{};  // VFH: smoothed
+  SectorMask binary{};         // blocked; VFH+: after hysteresis
+  SectorMask masked{};         // ... and after the turning circles
+  SectorMask seen{};           // reached by the camera's view or the map's memory
+  SectorMask selectable{};     // seen and not masked
   Openings openings;
 
   bool blocked = true;  // no candidate: everything below is zero, and `recovery` says where to turn on the spot
@@ -58,11 +62,21 @@ struct Plan {
   WheelSpeeds wheels;  // before limit_acceleration
 };
 
+// Histogram values below `low` free a sector, values above `high` block it, what lies between leaves it as it was.
+struct Thresholds {
+  int low = 0;
+  int high = 0;
+};
+
+// Those of the planner in use; VFH has one threshold, and leaves no sector as it was.
+Thresholds histogram_thresholds(const PlannerParams& params);
+
 class Planner {
  public:
   // Keeps `table`, polar_table_entries(geometry) entries of the caller's, and fills it. bad_argument: a geometry or
-  // radius outside the limits of polar_histogram.h, a name other than "vfh+", an `unknown` other than "stop" and
-  // "slow". Call again for other parameters. The only function here that allocates (the names' copies).
+  // radius outside the limits of polar_histogram.h, a name other than "vfh+" and "vfh", an `unknown` other than "stop"
+  // and "slow", a vfh_smoothing or vfh_stop_density outside the limits of vfh.h. Call again for other parameters. The
+  // only function here that allocates (the names' copies).
   Status configure(const PlannerParams& params, const VehicleParams& vehicle, const GridGeometry& geometry,
                    std::span<PolarEntry> table);
 
@@ -71,7 +85,10 @@ class Planner {
   Status plan(ImageView<const std::uint8_t> type, const PlanInput& input, PlanState& state, Plan& plan) const;
 
  private:
+  void block_sectors(double heading_change, PlanState& state, Plan& plan) const;
   void choose_sectors(ImageView<const std::uint8_t> type, Plan& plan) const;
+  std::optional<double> choose(const PlanInput& input, const Plan& plan) const;
+  double speed_limit(const PlanInput& input, const Plan& plan) const;
   double speed_along(ImageView<const std::uint8_t> type, const Plan& plan) const;
 
   PlannerParams params_;
@@ -82,6 +99,7 @@ class Planner {
   TurningCircles circles_;
   GovernorParams governor_;
   bool creep_ = false;
+  bool is_vfh_ = false;
 };
 
 }  // namespace lakshya

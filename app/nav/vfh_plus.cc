@@ -12,16 +12,10 @@ namespace {
 // Rounding must not decide between candidates that are mirror images.
 constexpr double kAngleTolerance = 1e-9;
 
-struct Interval {
-  double middle = 0;
-  double right = 0;  // extent to either side of the middle, rad
-  double left = 0;
-
-  bool holds(double direction) const {
-    const double offset = wrap_angle(direction - middle);
-    return -right - kAngleTolerance <= offset && offset <= left + kAngleTolerance;
-  }
-};
+// From an opening's first to its last sector's centre.
+double centre_width(const Opening& opening) {
+  return (opening.count - 1) * kSectorAngle;
+}
 
 double offset_from(Border border, double width, double wide) {
   return border == Border::obstacle ? std::min(wide, width) / 2 : 0.0;
@@ -68,22 +62,10 @@ class Cheapest {
 
 void offer_candidates(const Opening& opening, const SectorMask& selectable, const Wishes& wishes,
                       const DirectionCosts& costs, Cheapest& cheapest) {
-  const double width = (opening.count - 1) * kSectorAngle;
-  const double wide = costs.wide_opening_sectors * kSectorAngle;
-  const double middle = wrap_angle(sector_centre(opening.first) + width / 2);
-  const Interval between{middle, width / 2 - offset_from(opening.right, width, wide),
-                         width / 2 - offset_from(opening.left, width, wide)};
+  const Interval between = between_offsets(opening, costs.wide_opening_sectors);
   cheapest.offer(between.middle - between.right);
   cheapest.offer(between.middle + between.left);
-
-  const Interval reach{middle, between.right + view_margin(opening.right),
-                       between.left + view_margin(opening.left)};
-  if (!reach.holds(wishes.target)) return;
-  if (selectable[sector_index(sector_of(wishes.target))]) {
-    cheapest.offer(wishes.target);
-  } else {
-    cheapest.offer(middle + std::clamp(wrap_angle(wishes.target - middle), -width / 2, width / 2));
-  }
+  if (const auto target = target_in(opening, between, selectable, wishes.target)) cheapest.offer(*target);
 }
 
 struct SideView {
@@ -157,6 +139,28 @@ Openings find_openings(const SectorMask& selectable, const SectorMask& blocked) 
     found.items[static_cast<std::size_t>(found.count++)] = opening;
   }
   return found;
+}
+
+bool Interval::holds(double direction) const {
+  const double offset = wrap_angle(direction - middle);
+  return -right - kAngleTolerance <= offset && offset <= left + kAngleTolerance;
+}
+
+Interval between_offsets(const Opening& opening, int wide_opening_sectors) {
+  const double width = centre_width(opening);
+  const double wide = wide_opening_sectors * kSectorAngle;
+  return {wrap_angle(sector_centre(opening.first) + width / 2), width / 2 - offset_from(opening.right, width, wide),
+          width / 2 - offset_from(opening.left, width, wide)};
+}
+
+std::optional<double> target_in(const Opening& opening, const Interval& between, const SectorMask& selectable,
+                                double target) {
+  const Interval reach{between.middle, between.right + view_margin(opening.right),
+                       between.left + view_margin(opening.left)};
+  if (!reach.holds(target)) return std::nullopt;
+  if (selectable[sector_index(sector_of(target))]) return target;
+  const double half = centre_width(opening) / 2;
+  return between.middle + std::clamp(wrap_angle(target - between.middle), -half, half);
 }
 
 std::optional<double> choose_direction(const Openings& openings, const SectorMask& selectable, const Wishes& wishes,

@@ -66,6 +66,25 @@ struct Openings {
 // From behind counter-clockwise, that is from right to left.
 Openings find_openings(const SectorMask& selectable, const SectorMask& blocked);
 
+// Directions from `right` to `left` of a middle, rad.
+struct Interval {
+  double middle = 0;
+  double right = 0;
+  double left = 0;
+
+  bool holds(double direction) const;
+};
+
+// What an opening leaves to choose from, measured between its first and its last sector's centre: with w the angle
+// between these two, a side that borders on an obstacle is kept away from by min(s_max / 2 sectors, w / 2), a side
+// that borders on the view by 0.
+Interval between_offsets(const Opening& opening, int wide_opening_sectors);
+
+// The target's direction, if `between` holds it or it lies up to half a sector (the opening's edge) outside a side
+// that borders on the view; moved to the opening's nearest centre where its own sector is not selectable.
+std::optional<double> target_in(const Opening& opening, const Interval& between, const SectorMask& selectable,
+                                double target);
+
 struct Wishes {
   double target = 0;                              // rad
   double heading = 0;                             // rad
@@ -81,12 +100,8 @@ struct DirectionCosts {
 
 // The cheapest candidate of all openings, in [-pi, pi]; none without an opening.
 //
-// Candidates are measured between sector centres, as in VFH+: with w the angle from an opening's first to its last
-// centre, a side that borders on an obstacle is kept away from by min(s_max / 2 sectors, w / 2), a side that
-// borders on the view by 0. Between two obstacles a narrow opening so gives its centre, a wide one s_max / 2 from
-// each side. The target is a candidate when it lies between these two, or up to half a sector (the opening's edge)
-// outside one that borders on the view; it is then used as it is, or moved to the nearest centre where its own
-// sector is not selectable.
+// Candidates are the two ends of between_offsets(), as in VFH+, and target_in(). Between two obstacles a narrow
+// opening so gives its centre, a wide one s_max / 2 from each side.
 // Cost: mu1 |c - target| + mu2 |c - heading| + mu3 |c - previous|, smallest differences. Equal costs: the
 // candidate nearer the target, then the one on the left.
 std::optional<double> choose_direction(const Openings& openings, const SectorMask& selectable, const Wishes& wishes,

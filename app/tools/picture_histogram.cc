@@ -21,7 +21,7 @@ constexpr int kHatchSpacing = 7;
 class Axes {
  public:
   Axes(const Box& plot, const PictureInput& input) : plot_(plot) {
-    double most = 10.0 * input.config.planner.threshold_high;
+    double most = 10.0 * histogram_thresholds(input.config.planner).high;
     for (int k = -kOuterSector; k <= kOuterSector; ++k)
       most = std::max(most, static_cast<double>(input.frame.plan.histogram[sector_index(k)]));
     decades_ = std::log10(1 + most) * 1.03;
@@ -91,8 +91,13 @@ void draw_thresholds(Canvas& sheet, const Box& plot, const Axes& axes, const Pla
     sheet.line({{static_cast<double>(plot.x), y}, {right, y}}, kBlockedColor, 1);
     sheet.text({right + 6, y + text_y}, name + " " + decimal(value, 0), kSmallText, kBlockedColor);
   };
-  draw(planner.threshold_high, -2, "high");
-  draw(planner.threshold_low, 3 + kSmallText, "low");
+  const Thresholds thresholds = histogram_thresholds(planner);
+  if (thresholds.low == thresholds.high) {
+    draw(thresholds.high, kSmallText / 2.0, "limit");
+    return;
+  }
+  draw(thresholds.high, -2, "high");
+  draw(thresholds.low, 3 + kSmallText, "low");
 }
 
 struct Mark {

@@ -10,6 +10,7 @@
 
 #include "app/core/input_error.h"
 #include "app/core/vehicle_config_file.h"
+#include "app/core/vehicle_config_keys.h"
 #include "app/nav/planner.h"
 #include "app/nav/sectors.h"
 #include "app/tools/map_file.h"
@@ -63,8 +64,9 @@ std::string plain_text(const Planned& planned) {
   out << "  opening        left deg  right deg\n";
   for (const Opening& opening : plan.openings.view())
     out << std::setw(25) << degrees(opening.left_edge()) << std::setw(11) << degrees(opening.right_edge()) << "\n";
-  out << "  sector deg    histogram (free below " << planned.params.threshold_low << ", blocked above "
-      << planned.params.threshold_high << ")\n";
+  const Thresholds thresholds = histogram_thresholds(planned.params);
+  out << "  sector deg    histogram (free below " << thresholds.low << ", blocked above " << thresholds.high
+      << ")\n";
   for (int k = -kSectorsToTheSide; k <= kSectorsToTheSide; ++k) {
     const char* state = !plan.seen[sector_index(k)] ? "unseen" : plan.selectable[sector_index(k)] ? "" : "blocked";
     out << std::setw(12) << k * kPolarSectorDegrees << std::setw(13) << plan.histogram[sector_index(k)];
@@ -91,7 +93,7 @@ void add_plan_command(CLI::App& app) {
       ->check(angle_in_degrees());
   add_config_options(*command, options->config);
   command->add_option("--planner", options->planner, "Planning method (without: the configuration's)")
-      ->check(CLI::IsMember({"vfh+"}));
+      ->check(CLI::IsMember(std::vector<std::string>(kPlannerNames.begin(), kPlannerNames.end())));
   command->add_flag("--json", options->json, "Print JSON instead of a table");
   command->footer(
       "Angles: degrees counter-clockwise from straight ahead, negative to the right.\n"

@@ -38,6 +38,7 @@ nlohmann::ordered_json plan_json(const Plan& plan, const PlannerParams& params) 
     openings.push_back({rounded(degrees(opening.left_edge())), rounded(degrees(opening.right_edge()))});
   }
   Json json;
+  json["planner"] = params.name;
   json["direction_deg"] = plan.blocked ? Json() : Json(rounded(degrees(plan.direction)));
   json["speed_mps"] = rounded(plan.speed_mps);
   json["turn_rate_dps"] = rounded(degrees(plan.turn_rate_rps));
@@ -46,8 +47,9 @@ nlohmann::ordered_json plan_json(const Plan& plan, const PlannerParams& params) 
   json["recovery_turn"] = plan.blocked ? Json(side_name(plan.recovery)) : Json();
   json["openings"] = openings;
   json["histogram"] = front_histogram(plan);
-  json["threshold_low"] = params.threshold_low;
-  json["threshold_high"] = params.threshold_high;
+  const Thresholds thresholds = histogram_thresholds(params);
+  json["threshold_low"] = thresholds.low;
+  json["threshold_high"] = thresholds.high;
   return json;
 }
 

@@ -8,7 +8,7 @@
 
 namespace lakshya {
 
-// direction_deg (null when blocked), speed_mps, turn_rate_dps, clear_distance_m, blocked, recovery_turn, openings,
+// planner (its name), direction_deg (null when blocked), speed_mps, turn_rate_dps, clear_distance_m, blocked, recovery_turn, openings,
 // histogram (37 sectors from -90 to 90 degrees), threshold_low, threshold_high. Rounded to a millionth, which is
 // what two machines agree on (docs/contract.md).
 nlohmann::ordered_json plan_json(const Plan& plan, const PlannerParams& params);

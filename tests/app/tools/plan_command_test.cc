@@ -117,6 +117,22 @@ TEST_F(PlanCommandTest, SettingsReachThePlanner) {
   EXPECT_EQ(plan(free_, {"--target", "0", "--planner", "vfh+"})["direction_deg"], 0);
 }
 
+TEST_F(PlanCommandTest, ThePlannerIsChosenByOptionOrKey) {
+  EXPECT_EQ(plan(gap_, {"--target", "0"})["planner"], "vfh+");
+  const Json by_key = plan(gap_, {"--target", "0", "--set", "planner.name=vfh"});
+  const Json by_option = plan(gap_, {"--target", "0", "--planner", "vfh"});
+  EXPECT_EQ(by_option, by_key);
+  EXPECT_EQ(by_option["planner"], "vfh");
+  EXPECT_EQ(by_option["threshold_low"], 250);
+  EXPECT_EQ(by_option["threshold_high"], 250);
+  EXPECT_NE(by_option["histogram"], plan(gap_, {"--target", "0"})["histogram"]);
+  EXPECT_EQ(plan(gap_, {"--target", "0", "--planner", "vfh+", "--set", "planner.name=vfh"})["planner"], "vfh+");
+  EXPECT_EQ(plan(free_, {"--target", "-20", "--planner", "vfh"})["direction_deg"], -20);
+  EXPECT_EQ(plan(wall_, {"--target", "10", "--planner", "vfh"})["blocked"], true);
+  const std::string text = run(free_, {"--target", "0", "--planner", "vfh", "--set", "planner.vfh_threshold=99"});
+  EXPECT_NE(text.find("blocked above 99"), std::string::npos) << text;
+}
+
 TEST_F(PlanCommandTest, HeadingAndPreviousChoiceCount) {
   // Two gaps, mirror images.
   const std::string two = folder_.write("two.json", map_json([](int r, int c) {
@@ -158,7 +174,7 @@ TEST_F(PlanCommandTest, WrongUseIsAParseError) {
   }
   EXPECT_NO_THROW(run(free_, {"--target", "-180"}));
   EXPECT_THROW(run(free_, {}), CLI::ParseError);
-  EXPECT_THROW(run(free_, {"--target", "0", "--planner", "vfh"}), CLI::ParseError);
+  EXPECT_THROW(run(free_, {"--target", "0", "--planner", "vfh*"}), CLI::ParseError);
   EXPECT_THROW(run(free_, {"--target", "0", "--unknown-option"}), CLI::ParseError);
 }
 
