@@ -28,7 +28,10 @@ void check_image_size(const std::string& path, std::int64_t width, std::int64_t 
 }
 
 Image<std::uint8_t> read_gray(const std::string& path) {
-  const std::vector<std::uint8_t> bytes = read_file(path, kMaxFileBytes);
+  return decode_gray(path, read_file(path, kMaxFileBytes));
+}
+
+Image<std::uint8_t> decode_gray(const std::string& path, std::span<const std::uint8_t> bytes) {
   if (is_png(bytes)) return decode_png_gray(path, bytes);
   if (is_pnm(bytes)) return decode_pnm_gray(path, bytes);
   if (is_jpeg(bytes)) return decode_jpeg_gray(path, bytes);

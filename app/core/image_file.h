@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "app/core/image.h"
@@ -25,6 +26,9 @@ inline constexpr std::int64_t kMaxImagePixels = 128'000'000;
 // Throws InputError for anything else, for 16-bit samples, CMYK, and for a file that is truncated or damaged; a
 // JPEG that libjpeg-turbo would only warn about counts as damaged.
 Image<std::uint8_t> read_gray(const std::string& path);
+
+// The same for a file's content; `path` serves the messages.
+Image<std::uint8_t> decode_gray(const std::string& path, std::span<const std::uint8_t> bytes);
 
 // A grey PNG of 16 bits (KITTI disparity) or 8 bits (the values as they are; also as a palette or three channels that
 // are equal everywhere). Throws InputError as

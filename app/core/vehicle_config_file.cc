@@ -1,11 +1,13 @@
 #include "app/core/vehicle_config_file.h"
 
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <string_view>
 
 #include "app/core/file_bytes.h"
@@ -122,16 +124,40 @@ ConfigFile config_file(const std::string& path, const YAML::Node& root) {
   return file;
 }
 
-ConfigFile read_config_file(const std::string& path) {
-  const std::string text = read_text(path, kMaxBytes);
+class NoEvents : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark& /*mark*/) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& /*mark*/, YAML::anchor_t /*anchor*/) override {}
+  void OnAlias(const YAML::Mark& /*mark*/, YAML::anchor_t /*anchor*/) override {}
+  void OnScalar(const YAML::Mark& /*mark*/, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                const std::string& /*value*/) override {}
+  void OnSequenceStart(const YAML::Mark& /*mark*/, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                       YAML::EmitterStyle::value /*style*/) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& /*mark*/, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                  YAML::EmitterStyle::value /*style*/) override {}
+  void OnMapEnd() override {}
+};
+
+// Not by YAML::LoadAll(): given a file that begins with a comma, that of yaml-cpp 0.7 adds empty documents until the
+// memory is full.
+bool has_second_document(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  NoEvents ignored;
+  return parser.HandleNextDocument(ignored) && parser.HandleNextDocument(ignored);
+}
+
+ConfigFile parse_config_file(const std::string& text, const std::string& path) {
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.empty() || documents.front().IsNull()) {
+    const YAML::Node document = YAML::Load(text);
+    if (document.IsNull()) {
       throw InputError(path, "the file: no settings in it (`lakshya config` prints a complete file)");
     }
-    if (documents.size() > 1)
+    if (has_second_document(text))
       throw InputError(path, "the file: several YAML documents (keep one, without \"---\")");
-    return config_file(path, documents.front());
+    return config_file(path, document);
   } catch (const YAML::Exception& e) {
     throw InputError(location(path, e.mark),
                      "broken YAML: " + e.msg + " (compare with the output of `lakshya config`)");
@@ -209,11 +235,8 @@ void check_contradictions(const VehicleConfig& config, const Settings& applied, 
   throw InputError(last != applied.rend() ? last->where : path, found->reason);
 }
 
-}  // namespace
-
-VehicleConfig load_vehicle_config(const std::string& path, const std::string& profile,
-                                  const std::vector<std::string>& sets) {
-  const ConfigFile file = path.empty() ? ConfigFile{} : read_config_file(path);
+VehicleConfig merged(const ConfigFile& file, const std::string& path, const std::string& profile,
+                     const std::vector<std::string>& sets) {
   check_every_profile(file);
 
   VehicleConfig config;
@@ -229,6 +252,19 @@ VehicleConfig load_vehicle_config(const std::string& path, const std::string& pr
     apply(setting, config);
   check_contradictions(config, settings, path);
   return config;
+}
+
+}  // namespace
+
+VehicleConfig load_vehicle_config(const std::string& path, const std::string& profile,
+                                  const std::vector<std::string>& sets) {
+  if (path.empty()) return merged({}, path, profile, sets);
+  return parse_vehicle_config(read_text(path, kMaxBytes), path, profile, sets);
+}
+
+VehicleConfig parse_vehicle_config(const std::string& text, const std::string& source, const std::string& profile,
+                                   const std::vector<std::string>& sets) {
+  return merged(parse_config_file(text, source), source, profile, sets);
 }
 
 }  // namespace lakshya

@@ -21,4 +21,8 @@ namespace lakshya {
 VehicleConfig load_vehicle_config(const std::string& path, const std::string& profile,
                                   const std::vector<std::string>& sets);
 
+// The same for a file's content; `source` stands for the path in messages.
+VehicleConfig parse_vehicle_config(const std::string& text, const std::string& source, const std::string& profile,
+                                   const std::vector<std::string>& sets);
+
 }  // namespace lakshya

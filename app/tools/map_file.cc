@@ -142,8 +142,9 @@ CellType type_of_grey(const std::string& path, std::uint8_t grey, int u, int v) 
                              " from the top is no cell type (0 obstacle, 254 unoccupied, 205 unknown, maxval 255)");
 }
 
-MapFile read_pgm_map(const std::string& path, double cell_m) {
-  const Image<std::uint8_t> grey = read_gray(path);
+MapFile parse_pgm_map(const std::string& path, const std::string& text, double cell_m) {
+  const Image<std::uint8_t> grey =
+      decode_gray(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   if (grey.width() > kMaxMapSide || grey.height() > kMaxMapSide) {
     throw InputError(path, "pgm: " + std::to_string(grey.width()) + " x " + std::to_string(grey.height()) +
                                " cells are more than " + std::to_string(kMaxMapSide) +
@@ -185,8 +186,11 @@ std::string mean_height_text(std::uint32_t count, std::int64_t sum_mm) {
 }  // namespace
 
 MapFile read_map(const std::string& path, double pgm_cell_m) {
-  const std::string text = read_text(path, kMaxMapBytes);
-  if (text.starts_with("P5") || text.starts_with("P2")) return read_pgm_map(path, pgm_cell_m);
+  return parse_map(path, read_text(path, kMaxMapBytes), pgm_cell_m);
+}
+
+MapFile parse_map(const std::string& path, const std::string& text, double pgm_cell_m) {
+  if (text.starts_with("P5") || text.starts_with("P2")) return parse_pgm_map(path, text, pgm_cell_m);
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string::npos || text[first] != '{')
     throw InputError(path, "map: is neither JSON nor PGM (P5, P2) (give a map that `lakshya process` wrote)");

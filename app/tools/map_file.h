@@ -32,6 +32,9 @@ struct MapFile {
 // the wrong kind and values outside their range.
 MapFile read_map(const std::string& path, double pgm_cell_m);
 
+// The same for a file's content; `path` serves the messages.
+MapFile parse_map(const std::string& path, const std::string& text, double pgm_cell_m);
+
 // The same JSON with all planes, one map row per line of text. Mean heights in metres with 3 decimals, 0 where no
 // points are counted. The grid's planes all have the geometry's size.
 std::string write_map_json(const NavGrid& grid);

@@ -129,6 +129,8 @@ TEST_F(VehicleConfigFile, RefusesBrokenFilesWithLineKeyAndReason) {
       {"camera:\n\theight_m: 0.5\n", {"vehicle.yaml:2: broken YAML"}},
       {"camera: *nothing\n", {"broken YAML"}},
       {"camera: {}\n---\ncamera: {}\n", {"several YAML documents"}},
+      {",\n", {"no settings in it"}},
+      {", camera: {}\n", {"no settings in it"}},
       {"profile: forest\n", {"vehicle.yaml:1: profile: \"forest\" is unknown (known: outdoor, indoor)"}},
       {"profile:\n", {"profile: not a single value"}},
       {"profiles:\n", {"profiles: not a map"}},
