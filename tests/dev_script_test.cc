@@ -50,6 +50,13 @@ class DevScript : public testing::Test {
     std::ofstream(folder_ / path) << "x";
   }
 
+  void add_target(const std::string& reader, const std::string& body) const {
+    const fs::path file = folder_ / "build/fuzz/tests/fuzz" / ("fuzz_" + reader);
+    fs::create_directories(file.parent_path());
+    std::ofstream(file) << "#!/bin/sh\n" << body << "\n";
+    fs::permissions(file, fs::perms::owner_all);
+  }
+
   // From another folder than the checkout.
   Result dev(const std::string& arguments, const std::string& variable = "LAKSHYA_NO_DEPS=0") const {
     const std::string command = "cd / && env " + variable + " PATH='" + (folder_ / "stand-ins").string() +
@@ -84,7 +91,7 @@ class DevScript : public testing::Test {
 TEST_F(DevScript, HelpNamesEveryCommand) {
   const Result help = dev("help");
   EXPECT_EQ(help.status, 0);
-  for (const char* command : {"demo", "test", "build", "bench", "data", "format", "tidy", "deps"}) {
+  for (const char* command : {"demo", "test", "build", "bench", "fuzz", "data", "format", "tidy", "deps"}) {
     EXPECT_TRUE(contains(help.output, std::string("\n  ") + command)) << command;
   }
   EXPECT_EQ(dev("").output, help.output);
@@ -120,6 +127,34 @@ TEST_F(DevScript, BuildsAndRunsOnlyTheModule) {
   const Result two = dev("test census");
   EXPECT_TRUE(contains(two.output, "--target app_core_census_test kernels_census_test\n")) << two.output;
   EXPECT_TRUE(contains(two.output, "--tests-regex ^(app\\.core\\.census|kernels\\.census)$\n")) << two.output;
+}
+
+TEST_F(DevScript, FuzzesTheReadersAndNamesTheReproducer) {
+  if (!is_debian_12()) GTEST_SKIP() << "only Debian 12 is set up by the script";
+  for (const char* reader : {"png", "map_json"}) {
+    add_file(std::string("tests/fuzz/") + reader + "_fuzz.cc");
+    add_target(reader, "echo ran \"$@\"; echo 'Done 12 runs in 1 second(s)'");
+  }
+  stand_in("cmake", "echo cmake \"$@\"");
+  const Result all = dev("fuzz 3");
+  EXPECT_EQ(all.status, 0) << all.output;
+  EXPECT_TRUE(contains(all.output, "cmake --build --preset fuzz --target fuzz_map_json fuzz_png\n")) << all.output;
+  EXPECT_TRUE(contains(all.output, "png: 12 runs, nothing found\n")) << all.output;
+  EXPECT_TRUE(contains(all.output, "map_json: 12 runs, nothing found\n")) << all.output;
+
+  add_target("png", "echo ran \"$@\"; echo 'x; Test unit written to build/fuzz/found/png-crash-1'; exit 77");
+  const Result one = dev("fuzz png 3");
+  EXPECT_EQ(one.status, 1);
+  EXPECT_TRUE(contains(one.output, "--target fuzz_png\n")) << one.output;
+  EXPECT_TRUE(contains(one.output, "ran build/fuzz/corpus/png -max_total_time=3 ")) << one.output;
+  EXPECT_TRUE(contains(one.output, "reproducer: build/fuzz/found/png-crash-1\n")) << one.output;
+  EXPECT_EQ(dev("fuzz 3").status, 1);
+
+  const Result unknown = dev("fuzz bmp");
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_TRUE(contains(unknown.output, "\nmap_json\npng\n")) << unknown.output;
+  EXPECT_EQ(dev("fuzz 0").status, 2);
+  EXPECT_EQ(dev("fuzz png 3s").status, 2);
 }
 
 TEST_F(DevScript, InstallsNothingWhenNothingIsMissing) {
