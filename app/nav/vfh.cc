@@ -40,7 +40,7 @@ double nearer_end(const Interval& between, double target) {
 }  // namespace
 
 PolarHistogram smoothed_histogram(std::span<const std::uint32_t, kPolarSectors> histogram, int l) {
-  const auto window = static_cast<std::uint64_t>(2 * l + 1);
+  const std::uint64_t window = 2 * static_cast<std::uint64_t>(l) + 1;
   PolarHistogram smoothed{};
   for (int k = 0; k < kPolarSectors; ++k) {
     std::uint64_t sum = 0;

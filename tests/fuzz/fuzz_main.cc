@@ -20,6 +20,7 @@ void write_seeds(const std::string& folder) {
 }  // namespace
 }  // namespace lakshya::fuzz
 
+// NOLINTBEGIN(readability-identifier-naming): the names are libFuzzer's.
 extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
   const char* folder = std::getenv("LAKSHYA_FUZZ_SEEDS");
   if (folder == nullptr) return 0;
@@ -40,3 +41,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+// NOLINTEND(readability-identifier-naming)
