@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <cstddef>
-#include <cstdio>
+#include <filesystem>
 #include <string_view>
 #include <system_error>
 
@@ -17,13 +15,9 @@ namespace lakshya {
 namespace {
 
 constexpr std::size_t kMaxFileBytes = std::size_t{4} << 20;
-constexpr double kMaxSide = 16384;
-constexpr double kMinFocalPx = 10;
-constexpr double kMaxFocalPx = 100000;
-constexpr double kMaxOffCentre = 3;  // image sizes
-constexpr double kMinBaselineM = 0.001;
-constexpr double kMaxBaselineM = 10;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+enum class Format { opencv, middlebury, kitti, euroc, ros };
 
 template <std::size_t kCount>
 bool has_line_key(std::string_view text, char separator, const std::array<std::string_view, kCount>& keys) {
@@ -36,29 +30,67 @@ bool has_line_key(std::string_view text, char separator, const std::array<std::s
   return found;
 }
 
-bool is_opencv_yaml(std::string_view text) {
-  constexpr std::array<std::string_view, 4> kKeys{"K1", "K2", "M1", "M2"};
-  return text.starts_with("%YAML") || has_line_key(text, ':', kKeys);
+// KITTI's projections without their names: nothing but numbers.
+bool is_table_of_numbers(std::string_view text) {
+  return text.find_first_of("0123456789") != std::string_view::npos &&
+         text.find_first_not_of("0123456789+-.eE \t\r\n") == std::string_view::npos;
 }
 
-bool is_middlebury(std::string_view text) {
-  constexpr std::array<std::string_view, 2> kKeys{"cam0", "cam1"};
-  return has_line_key(text, '=', kKeys);
+Format format_of(std::string_view text, const std::string& path) {
+  constexpr std::array<std::string_view, 2> kMiddlebury{"cam0", "cam1"};
+  constexpr std::array<std::string_view, 4> kOpencv{"K1", "K2", "M1", "M2"};
+  constexpr std::array<std::string_view, 1> kEuroc{"T_BS"};
+  constexpr std::array<std::string_view, 3> kRos{"camera_name", "rectification_matrix", "projection_matrix"};
+  constexpr std::array<std::string_view, 8> kKitti{"P0",        "P1",        "P2",        "P3",
+                                                   "P_rect_00", "P_rect_01", "P_rect_02", "P_rect_03"};
+  if (has_line_key(text, '=', kMiddlebury)) return Format::middlebury;
+  if (has_line_key(text, ':', kOpencv)) return Format::opencv;
+  if (has_line_key(text, ':', kEuroc)) return Format::euroc;
+  if (has_line_key(text, ':', kRos)) return Format::ros;
+  if (text.starts_with("%YAML")) return Format::opencv;
+  if (has_line_key(text, ':', kKitti) || is_table_of_numbers(text)) return Format::kitti;
+  throw InputError(path,
+                   "format: not a calibration that is known (give an OpenCV stereo YAML with K1 D1 K2 D2 R T, a "
+                   "Middlebury calib.txt with cam0= cam1= doffs= baseline= width= height=, a KITTI calib.txt with "
+                   "P0: P1:, or both cameras' EuRoC sensor.yaml or ROS camera_info YAML)");
 }
 
-void require_focal(const CalibrationKey& key, double focal) {
-  if (!(focal > 0)) {
-    key.refuse("focal length " + shown(focal) + " is not positive (calibrate again or fix the sign)");
+CalibrationText read_calibration_text(const std::string& path) {
+  CalibrationText input{read_text(path, kMaxFileBytes), path};
+  if (input.text.starts_with(kByteOrderMark)) input.text.erase(0, kByteOrderMark.size());
+  return input;
+}
+
+StereoCalibration read_one(const CalibrationText& file, const CalibrationRequest& request) {
+  switch (format_of(file.text, file.source)) {
+    case Format::middlebury:
+      return parse_middlebury_calibration(file.text, file.source);
+    case Format::opencv:
+      return parse_opencv_calibration(file.text, file.source, request.opencv_unit_m);
+    case Format::kitti:
+      return parse_kitti_calibration(file.text, file.source, request.cameras);
+    case Format::euroc:
+      throw InputError(file.source,
+                       "format: one camera's EuRoC sensor.yaml; the other camera's is needed, too (give two files, "
+                       "left then right, or the folder with cam0 and cam1)");
+    case Format::ros:
+      break;
   }
-  if (focal < kMinFocalPx || focal > kMaxFocalPx) {
-    key.refuse("focal length " + shown(focal) + " px is outside 10..100000 (it is in pixels, not in millimetres)");
-  }
+  throw InputError(file.source,
+                   "format: one camera's ROS camera_info; the other camera's is needed, too (give two files, left "
+                   "then right, or the folder with left.yaml and right.yaml)");
 }
 
-void require_near_image(const CalibrationKey& key, double coordinate, int side) {
-  if (side == 0 || std::abs(coordinate - side / 2.0) <= kMaxOffCentre * side) return;
-  key.refuse("principal point at " + shown(coordinate) + " px is more than 3 image sizes from the centre of " +
-             std::to_string(side) + " px (calibrate again or fix the size)");
+StereoCalibration read_two(const CalibrationText& left, const CalibrationText& right) {
+  const Format format = format_of(left.text, left.source);
+  const bool per_camera = format == Format::euroc || format == Format::ros;
+  if (!per_camera) {
+    throw InputError(left.source, "format: holds both cameras by itself (give this one file alone)");
+  }
+  if (format_of(right.text, right.source) != format) {
+    throw InputError(right.source, "format: not that of " + left.source + " (give the files of one rig)");
+  }
+  return format == Format::euroc ? parse_euroc_calibration(left, right) : parse_ros_calibration(left, right);
 }
 
 // A calibration that does not state its image size is most often caught here when it is another size's.
@@ -73,69 +105,18 @@ void require_centre_inside(const StereoCalibration& calibration, const CameraMod
 
 }  // namespace
 
-void CalibrationKey::refuse(const std::string& reason) const {
-  throw InputError(source, name + ": " + reason);
-}
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\f\v";
-  const std::size_t begin = text.find_first_not_of(kBlank);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
-}
-
-std::string shown(std::string_view text) {
-  constexpr std::size_t kLength = 24;
-  std::string out(text.substr(0, kLength));
-  std::replace_if(
-      out.begin(), out.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return "'" + out + (text.size() > kLength ? "...'" : "'");
-}
-
-std::string shown(double value) {
-  std::array<char, 32> out{};
-  const int length = std::snprintf(out.data(), out.size(), "%.10g", value);
-  return {out.data(), static_cast<std::size_t>(length)};
-}
-
-double parse_number(const CalibrationKey& key, std::string_view text) {
-  std::string_view digits = trimmed(text);
-  if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error == std::errc::result_out_of_range) key.refuse(shown(text) + " is out of range (calibrate again)");
-  if (error != std::errc{} || end != digits.data() + digits.size()) {
-    key.refuse(shown(text) + " is not a number (write decimal numbers)");
-  }
-  if (!std::isfinite(value)) key.refuse(shown(text) + " is not a finite number (calibrate again)");
-  return value;
-}
-
-int require_side(const CalibrationKey& key, double value) {
-  if (value >= 1 && value <= kMaxSide && value == std::floor(value)) return static_cast<int>(value);
-  key.refuse(shown(value) + " is not an integer in 1..16384 (give the image size in pixels)");
-}
-
-void require_plausible(const CalibrationKey& key, const CameraModel& camera, int width, int height) {
-  require_focal(key, camera.fx);
-  require_focal(key, camera.fy);
-  require_near_image(key, camera.cx, width);
-  require_near_image(key, camera.cy, height);
-}
-
-void require_plausible_baseline(const CalibrationKey& key, double metres, const std::string& what_to_do) {
-  if (metres >= kMinBaselineM && metres <= kMaxBaselineM) return;
-  key.refuse("baseline " + shown(metres) + " m is outside 0.001..10 m (" + what_to_do + ")");
+StereoCalibration read_calibration(const CalibrationRequest& request) {
+  std::vector<std::string> paths = request.paths;
+  std::error_code ignored;
+  if (paths.size() == 1 && std::filesystem::is_directory(paths[0], ignored)) paths = find_calibration(paths[0]);
+  if (paths.size() == 1) return read_one(read_calibration_text(paths[0]), request);
+  if (paths.size() == 2) return read_two(read_calibration_text(paths[0]), read_calibration_text(paths[1]));
+  throw InputError("calibration", "paths: " + std::to_string(paths.size()) +
+                                      " given (give one file, the left and the right camera's file, or a folder)");
 }
 
 StereoCalibration read_calibration(const std::string& path, double opencv_unit_m) {
-  std::string text = read_text(path, kMaxFileBytes);
-  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
-  if (is_middlebury(text)) return parse_middlebury_calibration(text, path);
-  if (is_opencv_yaml(text)) return parse_opencv_calibration(text, path, opencv_unit_m);
-  throw InputError(path,
-                   "format: not a calibration that is known (give an OpenCV stereo YAML with K1 D1 K2 D2 R T, or a "
-                   "Middlebury calib.txt with cam0= cam1= doffs= baseline= width= height=)");
+  return read_calibration(CalibrationRequest{{path}, opencv_unit_m, {}});
 }
 
 void require_image_size(const StereoCalibration& calibration, int width, int height,

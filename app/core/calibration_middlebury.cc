@@ -1,7 +1,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <string>
 #include <string_view>
 
@@ -15,37 +14,6 @@ constexpr double kSameFocalPx = 1e-6;
 constexpr double kMetresPerUnit = 0.001;
 
 using Matrix3 = std::array<double, 9>;
-
-class Values {
- public:
-  Values(std::string_view text, const std::string& source) : source_(source) {
-    for_each_line(text, [this](std::string_view line) {
-      const std::size_t equals = line.find('=');
-      if (equals == std::string_view::npos) return;
-      const std::string name(trimmed(line.substr(0, equals)));
-      if (!values_.emplace(name, trimmed(line.substr(equals + 1))).second) {
-        key(shown(name)).refuse("given twice (keep one)");
-      }
-    });
-  }
-
-  CalibrationKey key(const std::string& name) const { return {source_, name}; }
-  bool has(const std::string& name) const { return values_.contains(name); }
-
-  std::string_view at(const std::string& name) const {
-    const auto found = values_.find(name);
-    if (found == values_.end()) {
-      key(name).refuse("missing (a Middlebury calib.txt has cam0, cam1, doffs, baseline, width and height)");
-    }
-    return found->second;
-  }
-
-  double number(const std::string& name) const { return parse_number(key(name), at(name)); }
-
- private:
-  const std::string& source_;
-  std::map<std::string, std::string_view> values_;
-};
 
 // "[a b c; d e f; g h i]", row by row.
 Matrix3 parse_matrix(const CalibrationKey& key, std::string_view text) {
@@ -67,7 +35,7 @@ Matrix3 parse_matrix(const CalibrationKey& key, std::string_view text) {
   return matrix;
 }
 
-CameraModel parse_camera(const Values& values, const std::string& name) {
+CameraModel parse_camera(const CalibrationLines& values, const std::string& name) {
   const CalibrationKey key = values.key(name);
   const Matrix3 m = parse_matrix(key, values.at(name));
   if (m[1] != 0 || m[3] != 0 || m[6] != 0 || m[7] != 0 || m[8] != 1) {
@@ -84,7 +52,7 @@ CameraModel parse_camera(const Values& values, const std::string& name) {
   return camera;
 }
 
-CameraModel parse_right_camera(const Values& values, const CameraModel& left) {
+CameraModel parse_right_camera(const CalibrationLines& values, const CameraModel& left) {
   if (!values.has("cam1") && values.has("doffs")) {
     CameraModel right = left;
     right.cx += values.number("doffs");
@@ -113,7 +81,8 @@ CameraModel parse_right_camera(const Values& values, const CameraModel& left) {
 }  // namespace
 
 StereoCalibration parse_middlebury_calibration(std::string_view text, const std::string& source) {
-  const Values values(text, source);
+  const CalibrationLines values(text, source, '=',
+                                "a Middlebury calib.txt has cam0, cam1, doffs, baseline, width and height");
   StereoCalibration calibration;
   calibration.source = source;
   calibration.images_rectified = true;

@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <string_view>
+#include <utility>
+
+#include "app/core/input_error.h"
 
 namespace lakshya {
 namespace {
@@ -86,20 +89,28 @@ CalibrationTable parse_opencv_matrix(const CalibrationKey& key, const YAML::Node
   return table;
 }
 
+YAML::Node load_yaml(const std::string& text, const std::string& source) {
+  try {
+    return YAML::Load(text);
+  } catch (const YAML::Exception& e) {
+    throw InputError(source, "YAML: line " + std::to_string(e.mark.line + 1) + ": " + e.msg + " (fix the line)");
+  }
+}
+
 }  // namespace
 
-CalibrationYaml::CalibrationYaml(const std::string& text, const std::string& source) : source_(source) {
-  const YAML::Node root = YAML::Load(text);
-  if (!root.IsMap()) key("YAML").refuse("not a list of KEY: VALUE (give an OpenCV stereo YAML)");
+CalibrationYaml::CalibrationYaml(std::string text, const std::string& source, std::string hint)
+    : source_(source), hint_(std::move(hint)) {
+  // OpenCV's first line is no YAML directive; as a comment it leaves the line numbers as they are.
+  if (text.starts_with("%YAML:")) text[0] = '#';
+  const YAML::Node root = load_yaml(text, source);
+  if (!root.IsMap()) key("YAML").refuse("not a list of KEY: VALUE (" + hint_ + ")");
   nodes_ = unique_entries(key("YAML"), root);
 }
 
 const YAML::Node& CalibrationYaml::at(const std::string& name) const {
   const auto found = nodes_.find(name);
-  if (found == nodes_.end()) {
-    key(name).refuse(
-        "missing (a stereo calibration has K1 D1 K2 D2 R T in one file: join intrinsics.yml and extrinsics.yml)");
-  }
+  if (found == nodes_.end()) key(name).refuse("missing (" + hint_ + ")");
   return found->second;
 }
 
@@ -107,11 +118,26 @@ double CalibrationYaml::number(const std::string& name) const {
   return scalar(key(name), at(name));
 }
 
+std::string CalibrationYaml::text(const std::string& name) const {
+  const YAML::Node& node = at(name);
+  if (!node.IsScalar()) key(name).refuse("holds a list or a map where a word belongs (write KEY: VALUE)");
+  return node.Scalar();
+}
+
 CalibrationTable CalibrationYaml::table(const std::string& name) const {
   const YAML::Node& node = at(name);
   if (node.IsMap()) return parse_opencv_matrix(key(name), node);
   if (node.IsSequence()) return parse_list(key(name), node);
   key(name).refuse("not a matrix (write an !!opencv-matrix or a list of rows)");
+}
+
+std::vector<double> CalibrationYaml::vector(const std::string& name) const {
+  CalibrationTable table = this->table(name);
+  if (!table.is_vector()) {
+    key(name).refuse(std::to_string(table.rows) + "x" + std::to_string(table.cols) +
+                     " numbers where one row belongs (write one row)");
+  }
+  return std::move(table.values);
 }
 
 void CalibrationYaml::require_shape(const std::string& name, const CalibrationTable& table, int rows,

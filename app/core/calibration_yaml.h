@@ -1,4 +1,4 @@
-// Private to the calibration readers: an OpenCV YAML file as named numbers and matrices.
+// Private to the calibration readers: a YAML file as named numbers, names and matrices.
 #pragma once
 
 #include <yaml-cpp/yaml.h>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "app/core/calibration_readers.h"
+#include "app/core/calibration_checks.h"
 
 namespace lakshya {
 
@@ -27,18 +27,23 @@ struct CalibrationTable {
   }
 };
 
-// Every accessor throws InputError when the key is missing or holds something else; the constructor also where a
-// key is given twice, and YAML::Exception where the text is no YAML.
+// Every accessor throws InputError when the key is missing or holds something else; the constructor where the text
+// is no YAML, and where a key is given twice. OpenCV's first line "%YAML:1.0" is allowed. Refers to the source.
 class CalibrationYaml {
  public:
-  CalibrationYaml(const std::string& text, const std::string& source);
+  // hint: what such a file has, for the refusal of a missing key.
+  CalibrationYaml(std::string text, const std::string& source, std::string hint);
 
   CalibrationKey key(const std::string& name) const { return {source_, name}; }
   bool has(const std::string& name) const { return nodes_.contains(name); }
   double number(const std::string& name) const;
+  std::string text(const std::string& name) const;
 
   // An !!opencv-matrix, a flat list or a list of rows, of at most 64 x 64 numbers.
   CalibrationTable table(const std::string& name) const;
+
+  // The same of one row or one column.
+  std::vector<double> vector(const std::string& name) const;
 
   template <int kRows, int kCols>
   Eigen::Matrix<double, kRows, kCols> matrix(const std::string& name) const {
@@ -55,6 +60,7 @@ class CalibrationYaml {
   void require_shape(const std::string& name, const CalibrationTable& table, int rows, int cols) const;
 
   const std::string& source_;
+  std::string hint_;
   std::map<std::string, YAML::Node> nodes_;
 };
 
