@@ -2,15 +2,9 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
-#include <system_error>
 #include <utility>
-
-#include "app/core/input_error.h"
 
 namespace lakshya {
 namespace {
@@ -25,7 +19,7 @@ constexpr double kRotationTolerance = 1e-3;
 constexpr double kSamePixel = 1e-3;
 constexpr double kMaxSkewPx = 1e-6;
 
-void require_focal(const CalibrationKey& key, double focal) {
+void require_focal(const InputKey& key, double focal) {
   if (!(focal > 0)) {
     key.refuse("focal length " + shown(focal) + " is not positive (calibrate again or fix the sign)");
   }
@@ -34,7 +28,7 @@ void require_focal(const CalibrationKey& key, double focal) {
   }
 }
 
-void require_near_image(const CalibrationKey& key, double coordinate, int side) {
+void require_near_image(const InputKey& key, double coordinate, int side) {
   if (side == 0 || std::abs(coordinate - side / 2.0) <= kMaxOffCentre * side) return;
   key.refuse("principal point at " + shown(coordinate) + " px is more than 3 image sizes from the centre of " +
              std::to_string(side) + " px (calibrate again or fix the size)");
@@ -51,44 +45,6 @@ std::string alternatives(std::initializer_list<std::size_t> counts) {
 }
 
 }  // namespace
-
-void CalibrationKey::refuse(const std::string& reason) const {
-  throw InputError(source, name + ": " + reason);
-}
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\f\v";
-  const std::size_t begin = text.find_first_not_of(kBlank);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
-}
-
-std::string shown(std::string_view text) {
-  constexpr std::size_t kLength = 24;
-  std::string out(text.substr(0, kLength));
-  std::replace_if(
-      out.begin(), out.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return "'" + out + (text.size() > kLength ? "...'" : "'");
-}
-
-std::string shown(double value) {
-  std::array<char, 32> out{};
-  const int length = std::snprintf(out.data(), out.size(), "%.10g", value);
-  return {out.data(), static_cast<std::size_t>(length)};
-}
-
-double parse_number(const CalibrationKey& key, std::string_view text) {
-  std::string_view digits = trimmed(text);
-  if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error == std::errc::result_out_of_range) key.refuse(shown(text) + " is out of range (calibrate again)");
-  if (error != std::errc{} || end != digits.data() + digits.size()) {
-    key.refuse(shown(text) + " is not a number (write decimal numbers)");
-  }
-  if (!std::isfinite(value)) key.refuse(shown(text) + " is not a finite number (calibrate again)");
-  return value;
-}
 
 CalibrationLines::CalibrationLines(std::string_view text, const std::string& source, char separator,
                                    std::string hint)
@@ -109,24 +65,24 @@ std::string_view CalibrationLines::at(const std::string& name) const {
   return found->second;
 }
 
-int require_side(const CalibrationKey& key, double value) {
+int require_side(const InputKey& key, double value) {
   if (value >= 1 && value <= kMaxSide && value == std::floor(value)) return static_cast<int>(value);
   key.refuse(shown(value) + " is not an integer in 1..16384 (give the image size in pixels)");
 }
 
-void require_plausible(const CalibrationKey& key, const CameraModel& camera, int width, int height) {
+void require_plausible(const InputKey& key, const CameraModel& camera, int width, int height) {
   require_focal(key, camera.fx);
   require_focal(key, camera.fy);
   require_near_image(key, camera.cx, width);
   require_near_image(key, camera.cy, height);
 }
 
-void require_plausible_baseline(const CalibrationKey& key, double metres, const std::string& what_to_do) {
+void require_plausible_baseline(const InputKey& key, double metres, const std::string& what_to_do) {
   if (metres >= kMinBaselineM && metres <= kMaxBaselineM) return;
   key.refuse("baseline " + shown(metres) + " m is outside 0.001..10 m (" + what_to_do + ")");
 }
 
-void require_side_by_side(const CalibrationKey& key, const Eigen::Vector3d& t, const std::string& what_to_do) {
+void require_side_by_side(const InputKey& key, const Eigen::Vector3d& t, const std::string& what_to_do) {
   require_plausible_baseline(key, t.norm(), what_to_do);
   if (t.tail<2>().cwiseAbs().maxCoeff() > std::abs(t.x())) {
     key.refuse(
@@ -136,14 +92,14 @@ void require_side_by_side(const CalibrationKey& key, const Eigen::Vector3d& t, c
   if (t.x() >= 0) key.refuse("T_x is not negative: left and right are swapped (exchange the cameras)");
 }
 
-void require_rotation(const CalibrationKey& key, const Eigen::Matrix3d& r) {
+void require_rotation(const InputKey& key, const Eigen::Matrix3d& r) {
   const double off = (r * r.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (off <= kRotationTolerance && r.determinant() > 0) return;
   key.refuse("not a rotation: R R^T is off by " + shown(off) + ", determinant " + shown(r.determinant()) +
              " (write the 3x3 matrix with all its digits)");
 }
 
-void set_distortion(const CalibrationKey& key, const std::vector<double>& values,
+void set_distortion(const InputKey& key, const std::vector<double>& values,
                     std::initializer_list<std::size_t> counts, CameraModel& camera) {
   if (std::find(counts.begin(), counts.end(), values.size()) == counts.end()) {
     key.refuse(std::to_string(values.size()) + " coefficients where " + alternatives(counts) +
@@ -156,7 +112,7 @@ void set_distortion(const CalibrationKey& key, const std::vector<double>& values
   std::copy_n(values.begin(), std::min(values.size(), camera.distortion.size()), camera.distortion.begin());
 }
 
-void require_camera_matrix(const CalibrationKey& key, const Eigen::Matrix3d& k) {
+void require_camera_matrix(const InputKey& key, const Eigen::Matrix3d& k) {
   if (std::abs(k(0, 1)) <= kMaxSkewPx && k(1, 0) == 0 && k(2, 0) == 0 && k(2, 1) == 0 && k(2, 2) == 1) return;
   key.refuse("not a camera matrix without skew (write [fx 0 cx; 0 fy cy; 0 0 1])");
 }
@@ -170,14 +126,14 @@ CameraModel camera_of(const Eigen::Matrix3d& k) {
   return camera;
 }
 
-void require_size_of_left(const CalibrationKey& key, int left_width, int left_height, int width, int height) {
+void require_size_of_left(const InputKey& key, int left_width, int left_height, int width, int height) {
   if (width == left_width && height == left_height) return;
   const auto text = [](int w, int h) { return std::to_string(w) + "x" + std::to_string(h); };
   key.refuse(text(width, height) + " is not the left camera's " + text(left_width, left_height) +
              " (take both cameras from one calibration)");
 }
 
-void require_projection(const CalibrationKey& key, const Projection& p, int width, int height) {
+void require_projection(const InputKey& key, const Projection& p, int width, int height) {
   const bool shaped = p(0, 1) == 0 && p(1, 0) == 0 && p(2, 0) == 0 && p(2, 1) == 0 && p(2, 2) == 1 && p(2, 3) == 0;
   if (!shaped) key.refuse("not a rectified projection (write [f 0 cx Tx*f; 0 f cy 0; 0 0 1 0])");
   if (p(1, 3) != 0) key.refuse("a vertical stereo rig is not supported (mount the cameras side by side)");
@@ -188,7 +144,7 @@ void require_projection(const CalibrationKey& key, const Projection& p, int widt
   require_plausible(key, camera_of(p.leftCols<3>()), width, height);
 }
 
-void require_same_rows(const CalibrationKey& key, const Projection& left, const Projection& right) {
+void require_same_rows(const InputKey& key, const Projection& left, const Projection& right) {
   const auto require_same = [&key](const char* what, double l, double r) {
     if (std::abs(l - r) <= kSamePixel) return;
     key.refuse(std::string(what) + " " + shown(r) + " is not the left camera's " + shown(l) +

@@ -1,4 +1,4 @@
-// Private to the calibration readers: numbers and lines of text, and the checks that the formats share.
+// Private to the calibration readers: named lines, and the checks that the formats share.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,37 +9,11 @@
 #include <vector>
 
 #include "app/core/calibration.h"
+#include "app/core/input_text.h"
 
 namespace lakshya {
 
 using Projection = Eigen::Matrix<double, 3, 4>;
-
-// Where a value comes from, for messages.
-struct CalibrationKey {
-  const std::string& source;
-  std::string name;
-
-  [[noreturn]] void refuse(const std::string& reason) const;
-};
-
-std::string_view trimmed(std::string_view text);
-
-// Calls f(line) for every line, without its line end.
-template <class F>
-void for_each_line(std::string_view text, F f) {
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    f(text.substr(0, end));
-    text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
-  }
-}
-
-// Short and printable, whatever the file holds.
-std::string shown(std::string_view text);
-std::string shown(double value);
-
-// A finite decimal number and nothing else.
-double parse_number(const CalibrationKey& key, std::string_view text);
 
 // A text of lines NAME separator VALUE; other lines are ignored, a name given twice is refused. Refers to the text
 // and the source.
@@ -48,7 +22,7 @@ class CalibrationLines {
   // hint: what such a file has, for the refusal of a missing name.
   CalibrationLines(std::string_view text, const std::string& source, char separator, std::string hint);
 
-  CalibrationKey key(const std::string& name) const { return {source_, name}; }
+  InputKey key(const std::string& name) const { return {source_, name}; }
   bool has(const std::string& name) const { return values_.contains(name); }
   std::string_view at(const std::string& name) const;
   double number(const std::string& name) const { return parse_number(key(name), at(name)); }
@@ -60,37 +34,37 @@ class CalibrationLines {
 };
 
 // An image width or height: an integer in 1..16384.
-int require_side(const CalibrationKey& key, double value);
+int require_side(const InputKey& key, double value);
 
 // Focal lengths and principal point; the size is 0 x 0 where the file states none.
-void require_plausible(const CalibrationKey& key, const CameraModel& camera, int width, int height);
+void require_plausible(const InputKey& key, const CameraModel& camera, int width, int height);
 
 // what_to_do ends the message: formats differ in their units.
-void require_plausible_baseline(const CalibrationKey& key, double metres, const std::string& what_to_do);
+void require_plausible_baseline(const InputKey& key, double metres, const std::string& what_to_do);
 
 // T of x_right = R x_left + T, in metres: a plausible baseline, mainly along -x.
-void require_side_by_side(const CalibrationKey& key, const Eigen::Vector3d& t, const std::string& what_to_do);
+void require_side_by_side(const InputKey& key, const Eigen::Vector3d& t, const std::string& what_to_do);
 
 // R R^T = I to 1e-3, right-handed.
-void require_rotation(const CalibrationKey& key, const Eigen::Matrix3d& r);
+void require_rotation(const InputKey& key, const Eigen::Matrix3d& r);
 
 // k1 k2 p1 p2 k3.. in OpenCV's order, one of `counts` of them; a tilted sensor (coefficients 13, 14) is refused.
-void set_distortion(const CalibrationKey& key, const std::vector<double>& values,
+void set_distortion(const InputKey& key, const std::vector<double>& values,
                     std::initializer_list<std::size_t> counts, CameraModel& camera);
 
 // [fx 0 cx; 0 fy cy; 0 0 1]
-void require_camera_matrix(const CalibrationKey& key, const Eigen::Matrix3d& k);
+void require_camera_matrix(const InputKey& key, const Eigen::Matrix3d& k);
 
 // Focal lengths and principal point of a camera matrix, or of the first three columns of a projection.
 CameraModel camera_of(const Eigen::Matrix3d& k);
 
 // The right camera's size, which the key names, is the left one's.
-void require_size_of_left(const CalibrationKey& key, int left_width, int left_height, int width, int height);
+void require_size_of_left(const InputKey& key, int left_width, int left_height, int width, int height);
 
 // P = [f 0 cx Tx*f; 0 f cy 0; 0 0 1 0] with plausible numbers.
-void require_projection(const CalibrationKey& key, const Projection& p, int width, int height);
+void require_projection(const InputKey& key, const Projection& p, int width, int height);
 
 // Left and right projections have one focal length and one cy. The key is the right one's.
-void require_same_rows(const CalibrationKey& key, const Projection& left, const Projection& right);
+void require_same_rows(const InputKey& key, const Projection& left, const Projection& right);
 
 }  // namespace lakshya

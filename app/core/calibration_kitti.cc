@@ -26,8 +26,7 @@ std::string labelled(std::string_view text, const std::string& source) {
   for_each_line(text, [&](std::string_view line) {
     if (trimmed(line).empty()) return;
     if (camera == kCameras) {
-      CalibrationKey{source, "P4"}.refuse("more than 4 lines of numbers: a list of poses? (" + std::string(kHint) +
-                                          ")");
+      InputKey{source, "P4"}.refuse("more than 4 lines of numbers: a list of poses? (" + std::string(kHint) + ")");
     }
     out += "P" + std::to_string(camera++) + ": " + std::string(line) + "\n";
   });
@@ -35,7 +34,7 @@ std::string labelled(std::string_view text, const std::string& source) {
 }
 
 template <std::size_t kCount>
-std::array<double, kCount> parse_numbers(const CalibrationKey& key, std::string_view text) {
+std::array<double, kCount> parse_numbers(const InputKey& key, std::string_view text) {
   std::array<double, kCount> numbers{};
   std::size_t found = 0;
   for (std::string_view rest = trimmed(text); !rest.empty(); ++found) {
@@ -75,7 +74,7 @@ struct KittiCamera {
 
 KittiCamera read_camera(const CalibrationLines& lines, int camera, StereoCalibration& calibration) {
   const std::string name = projection_key(lines, camera);
-  const CalibrationKey key = lines.key(name);
+  const InputKey key = lines.key(name);
   const auto numbers = parse_numbers<12>(key, lines.at(name));
   KittiCamera read;
   read.p = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(numbers.data());
@@ -99,7 +98,7 @@ StereoCalibration parse_kitti_calibration(std::string_view text, const std::stri
   calibration.images_rectified = true;
   const KittiCamera left = read_camera(lines, cameras.left, calibration);
   const KittiCamera right = read_camera(lines, cameras.right, calibration);
-  const CalibrationKey key = lines.key(projection_key(lines, cameras.right));
+  const InputKey key = lines.key(projection_key(lines, cameras.right));
   require_same_rows(key, left.p, right.p);
   const Vector3d t = right.translation - left.translation;
   require_side_by_side(key, t, "KITTI's last column is metres times focal length; give two different cameras");

@@ -16,7 +16,7 @@ constexpr double kMetresPerUnit = 0.001;
 using Matrix3 = std::array<double, 9>;
 
 // "[a b c; d e f; g h i]", row by row.
-Matrix3 parse_matrix(const CalibrationKey& key, std::string_view text) {
+Matrix3 parse_matrix(const InputKey& key, std::string_view text) {
   constexpr std::string_view kWhatToDo = " (write [f 0 cx; 0 f cy; 0 0 1])";
   const auto refuse_shape = [&] { key.refuse(shown(text) + " is not a 3x3 matrix" + std::string(kWhatToDo)); };
   if (!text.starts_with('[') || !text.ends_with(']')) refuse_shape();
@@ -36,7 +36,7 @@ Matrix3 parse_matrix(const CalibrationKey& key, std::string_view text) {
 }
 
 CameraModel parse_camera(const CalibrationLines& values, const std::string& name) {
-  const CalibrationKey key = values.key(name);
+  const InputKey key = values.key(name);
   const Matrix3 m = parse_matrix(key, values.at(name));
   if (m[1] != 0 || m[3] != 0 || m[6] != 0 || m[7] != 0 || m[8] != 1) {
     key.refuse("not a camera matrix (write [f 0 cx; 0 f cy; 0 0 1])");

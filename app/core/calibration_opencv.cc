@@ -60,7 +60,7 @@ void read_distortion(const CalibrationYaml& file, const std::string& name, Camer
 
 CameraModel read_camera(const CalibrationYaml& file, char which, const StereoCalibration& calibration) {
   const std::string name = camera_key(file, which);
-  const CalibrationKey key = file.key(name);
+  const InputKey key = file.key(name);
   const Matrix3d k = file.matrix<3, 3>(name);
   require_camera_matrix(key, k);
   CameraModel camera = camera_of(k);

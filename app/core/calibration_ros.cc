@@ -26,7 +26,7 @@ struct CameraInfo {
 // plumb_bob and rational_polynomial are OpenCV's coefficients in OpenCV's order (sensor_msgs/CameraInfo).
 void read_distortion(const CalibrationYaml& file, CameraModel& camera) {
   const std::string model = file.text("distortion_model");
-  const CalibrationKey key = file.key("distortion_coefficients");
+  const InputKey key = file.key("distortion_coefficients");
   const std::vector<double> values = file.vector("distortion_coefficients");
   if (model == "plumb_bob") {
     set_distortion(key, values, {4, 5}, camera);
@@ -58,10 +58,10 @@ CameraInfo read_camera_info(const CalibrationText& input) {
 double checked_baseline(const CalibrationText& left_file, const CameraInfo& left, const CalibrationText& right_file,
                         const CameraInfo& right) {
   if (left.projection(0, 3) != 0) {
-    CalibrationKey{left_file.source, "projection_matrix"}.refuse(
+    InputKey{left_file.source, "projection_matrix"}.refuse(
         "its last column is not zero: left and right are swapped (the left camera has no offset)");
   }
-  const CalibrationKey key{right_file.source, "projection_matrix"};
+  const InputKey key{right_file.source, "projection_matrix"};
   require_same_rows(key, left.projection, right.projection);
   const double baseline = (left.projection(0, 3) - right.projection(0, 3)) / right.projection(0, 0);
   if (baseline < 0) {

@@ -13,7 +13,7 @@ using Nodes = std::map<std::string, YAML::Node>;
 
 constexpr int kMaxEntries = 64;
 
-Nodes unique_entries(const CalibrationKey& key, const YAML::Node& map) {
+Nodes unique_entries(const InputKey& key, const YAML::Node& map) {
   Nodes nodes;
   for (const auto& entry : map) {
     if (!entry.first.IsScalar()) key.refuse("a key is not a name (write KEY: VALUE)");
@@ -24,17 +24,17 @@ Nodes unique_entries(const CalibrationKey& key, const YAML::Node& map) {
   return nodes;
 }
 
-double scalar(const CalibrationKey& key, const YAML::Node& node) {
+double scalar(const InputKey& key, const YAML::Node& node) {
   if (!node.IsScalar()) key.refuse("holds a list or a map where a number belongs (write decimal numbers)");
   return parse_number(key, node.Scalar());
 }
 
 // Aliases can repeat a long list without end.
-void require_short(const CalibrationKey& key, const YAML::Node& list) {
+void require_short(const InputKey& key, const YAML::Node& list) {
   if (list.size() > kMaxEntries) key.refuse("more than 64 entries (write a matrix)");
 }
 
-CalibrationTable parse_list(const CalibrationKey& key, const YAML::Node& list) {
+CalibrationTable parse_list(const InputKey& key, const YAML::Node& list) {
   require_short(key, list);
   CalibrationTable table;
   table.flat = list.size() == 0 || !list[0].IsSequence();
@@ -55,7 +55,7 @@ CalibrationTable parse_list(const CalibrationKey& key, const YAML::Node& list) {
   return table;
 }
 
-int require_count(const CalibrationKey& key, const Nodes& nodes, const char* name) {
+int require_count(const InputKey& key, const Nodes& nodes, const char* name) {
   const auto found = nodes.find(name);
   if (found == nodes.end()) key.refuse(std::string(name) + " is missing (a matrix has rows, cols, dt and data)");
   const double count = scalar(key, found->second);
@@ -63,13 +63,13 @@ int require_count(const CalibrationKey& key, const Nodes& nodes, const char* nam
   key.refuse(std::string(name) + " " + shown(count) + " is not an integer in 0..64 (write the matrix again)");
 }
 
-void require_one_channel(const CalibrationKey& key, const YAML::Node& type) {
+void require_one_channel(const InputKey& key, const YAML::Node& type) {
   const std::string dt = type.IsScalar() ? type.Scalar() : "";
   if (dt.size() == 1 && std::string_view("ucwsifd").find(dt[0]) != std::string_view::npos) return;
   key.refuse("element type " + shown(dt) + " is not a number of one channel (write the matrix as dt: d)");
 }
 
-CalibrationTable parse_opencv_matrix(const CalibrationKey& key, const YAML::Node& map) {
+CalibrationTable parse_opencv_matrix(const InputKey& key, const YAML::Node& map) {
   const Nodes nodes = unique_entries(key, map);
   const int rows = require_count(key, nodes, "rows");
   const int cols = require_count(key, nodes, "cols");

@@ -34,7 +34,7 @@ class CalibrationYaml {
   // hint: what such a file has, for the refusal of a missing key.
   CalibrationYaml(std::string text, const std::string& source, std::string hint);
 
-  CalibrationKey key(const std::string& name) const { return {source_, name}; }
+  InputKey key(const std::string& name) const { return {source_, name}; }
   bool has(const std::string& name) const { return nodes_.contains(name); }
   double number(const std::string& name) const;
   std::string text(const std::string& name) const;

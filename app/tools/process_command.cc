@@ -9,7 +9,6 @@
 #include <numbers>
 #include <optional>
 
-#include "app/core/calibration_file.h"
 #include "app/core/file_bytes.h"
 #include "app/core/geometry.h"
 #include "app/core/image_file.h"
@@ -23,15 +22,14 @@
 #include "app/tools/output_folder.h"
 #include "app/tools/pictures.h"
 #include "app/tools/process_report.h"
+#include "app/tools/stereo_input.h"
 #include "hal/clock/monotonic_clock.h"
 
 namespace lakshya {
 namespace {
 
 struct ProcessOptions {
-  std::string left;
-  std::string right;
-  std::string calibration;
+  StereoInputOptions input;
   std::string out;
   ConfigOptions config;
   std::string matcher;
@@ -60,27 +58,8 @@ std::vector<std::string> all_sets(const ProcessOptions& o) {
   return sets;
 }
 
-struct Pair {
-  Image<std::uint8_t> left;
-  Image<std::uint8_t> right;
-};
-
-Pair read_pair(const ProcessOptions& o, const StereoCalibration& calibration) {
-  Pair pair{read_gray(o.left), read_gray(o.right)};
-  require_image_size(calibration, pair.left.width(), pair.left.height(), o.left);
-  require_image_size(calibration, pair.right.width(), pair.right.height(), o.right);
-  if (!same_size(pair.left.view(), pair.right.view())) {
-    const auto size = [](const Image<std::uint8_t>& i) {
-      return std::to_string(i.width()) + "x" + std::to_string(i.height());
-    };
-    throw InputError(o.right, "size " + size(pair.right) + " differs from the left image's " + size(pair.left) +
-                                  " (give both images of one pair)");
-  }
-  return pair;
-}
-
-void write_results(const ProcessOptions& o, const VehicleConfig& config, const Pipeline& pipeline,
-                   const FrameResult& frame, OutputFolder& folder) {
+void write_results(const ProcessOptions& o, const VehicleConfig& config, const StereoInput& input,
+                   const Pipeline& pipeline, const FrameResult& frame, OutputFolder& folder) {
   const KittiDisparity disparity = kitti_disparity(frame.disparity, pipeline.camera().doffs());
   if (disparity.clipped > 0) {
     spdlog::warn(
@@ -92,7 +71,7 @@ void write_results(const ProcessOptions& o, const VehicleConfig& config, const P
                               config,
                               o.target_deg * std::numbers::pi / 180,
                               pipeline.blind_zone(),
-                              std::filesystem::path(o.left).filename()};
+                              std::filesystem::path(input.left_path).filename()};
   write_png(folder.file("disparity.png"), disparity.image.view());
   write_png(folder.file("disparity_color.png"), disparity_picture(pictures).view());
   write_png(folder.file("classes.png"), classes_picture(pictures).view());
@@ -105,20 +84,23 @@ void write_results(const ProcessOptions& o, const VehicleConfig& config, const P
 
 void process(const ProcessOptions& o) {
   const VehicleConfig config = load_vehicle_config(o.config.config, o.config.profile, all_sets(o));
-  const StereoCalibration calibration = read_calibration(o.calibration, config.camera.calibration_unit_m);
-  const Pair pair = read_pair(o, calibration);
+  const StereoInput input = read_stereo_input(o.input, config.camera.calibration_unit_m);
+  const int width = input.left.width();
+  const int height = input.left.height();
   const MonotonicClock clock;
-  Pipeline pipeline(config, calibration, pair.left.width(), pair.left.height(), kReferenceKernels, clock);
+  Pipeline pipeline(config, input.calibration, width, height, kReferenceKernels, clock);
 
-  spdlog::info("{}x{}, {} disparities: matching with the scalar reference", pair.left.width(), pair.left.height(),
+  spdlog::info("{}x{}, {} disparities: matching with the scalar reference", width, height,
                config.matcher.disparities);
   OutputFolder folder(o.out);  // refuses before the long work, not after it
   FrameResult frame;
-  const PlanInput input{.target = o.target_deg * std::numbers::pi / 180};
-  const Status status = pipeline.process(pair.left.view(), pair.right.view(), input, frame);
-  if (status != Status::ok) throw InputError(o.left, std::string("cannot be processed: ") + to_string(status));
+  const PlanInput plan{.target = o.target_deg * std::numbers::pi / 180};
+  const Status status = pipeline.process(input.left.view(), input.right.view(), plan, frame);
+  if (status != Status::ok) {
+    throw InputError(input.left_path, std::string("cannot be processed: ") + to_string(status));
+  }
   spdlog::info("drawing and writing {}", o.out);
-  write_results(o, config, pipeline, frame, folder);
+  write_results(o, config, input, pipeline, frame, folder);
 
   if (o.json) {
     nlohmann::ordered_json json = frame_json(frame, config.planner);
@@ -129,6 +111,9 @@ void process(const ProcessOptions& o) {
     json["ground_pitch_deg"] = pitch_deg_of_disparity16(config, pipeline.camera(), frame.ground_offset16);
     json["blind_zone_m"] = pipeline.blind_zone();
     json["arena_bytes"] = pipeline.arena_bytes();
+    json["left"] = input.left_path;
+    json["right"] = input.right_path;
+    if (input.timestamp_ns) json["timestamp_ns"] = *input.timestamp_ns;
     json["out"] = o.out;
     std::cout << json.dump() << '\n';
   } else {
@@ -137,10 +122,7 @@ void process(const ProcessOptions& o) {
 }
 
 void add_options(CLI::App& command, ProcessOptions& o) {
-  command.add_option("--left", o.left, "Left image: PNG, PGM, PPM or JPEG, 8 bits, grey or colour")->required();
-  command.add_option("--right", o.right, "Right image of the same size")->required();
-  command.add_option("--calib", o.calibration, "Calibration: OpenCV stereo YAML or Middlebury calib.txt")
-      ->required();
+  add_stereo_input_options(command, o.input);
   add_config_options(command, o.config);
   command.add_option("--out", o.out, "Folder for the results; made when missing")->required();
   command.add_option("--matcher", o.matcher, "Matcher: sgm");
@@ -159,7 +141,13 @@ void add_options(CLI::App& command, ProcessOptions& o) {
       "Writes disparity.png (16 bits, u_left - u_right in 1/256 px, 0 = none), disparity_color.png, classes.png,\n"
       "map.png, map.json, summary.png and, with --points, points.ply. All of them appear together or not at all.\n"
       "Example: lakshya process --left left.png --right right.png --calib calib.txt --camera-height 0.6\n"
-      "           --camera-pitch 5 --profile indoor --target 20 --out out/frame");
+      "           --camera-pitch 5 --profile indoor --target 20 --out out/frame\n"
+      "KITTI:   lakshya process --sequence sequences/06 --frame 12 --camera-height 1.65 --camera-pitch 0 --out "
+      "out/k12\n"
+      "EuRoC:   lakshya process --sequence V1_01_easy --frame 100 --profile indoor --camera-height 1.2 --out "
+      "out/e100\n"
+      "ROS:     lakshya process --left left_images --right right_images --frame 0 --calib left.yaml right.yaml\n"
+      "           --out out/r0");
 }
 
 }  // namespace
