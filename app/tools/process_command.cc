@@ -142,12 +142,12 @@ void add_options(CLI::App& command, ProcessOptions& o) {
       "map.png, map.json, summary.png and, with --points, points.ply. All of them appear together or not at all.\n"
       "Example: lakshya process --left left.png --right right.png --calib calib.txt --camera-height 0.6\n"
       "           --camera-pitch 5 --profile indoor --target 20 --out out/frame\n"
-      "KITTI:   lakshya process --sequence sequences/06 --frame 12 --camera-height 1.65 --camera-pitch 0 --out "
-      "out/k12\n"
-      "EuRoC:   lakshya process --sequence V1_01_easy --frame 100 --profile indoor --camera-height 1.2 --out "
-      "out/e100\n"
+      "KITTI:   lakshya process --sequence sequences/06 --frame 12 --camera-height 1.65 --camera-pitch 0\n"
+      "           --disparities 128 --out out/kitti\n"
+      "EuRoC:   lakshya process --sequence V1_01_easy --frame 100 --camera-height 1.2 --camera-pitch 20\n"
+      "           --profile indoor --out out/euroc\n"
       "ROS:     lakshya process --left left_images --right right_images --frame 0 --calib left.yaml right.yaml\n"
-      "           --out out/r0");
+      "           --out out/ros");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ class FrameFolderTest : public ::testing::Test {
   void write(const std::string& folder, const Names& names) const {
     fs::create_directories(path(folder));
     for (const std::string& name : names)
-      folder_.write(folder + "/" + name, std::string("x"));
+      folder_.write((fs::path(folder) / name).string(), std::string("x"));
   }
   void write_text(const std::string& name, const std::string& text) const {
     fs::create_directories(fs::path(path(name)).parent_path());

@@ -59,8 +59,8 @@ class StereoInputTest : public ::testing::Test {
     int shift = 8;
     for (const std::string& name : names) {
       const test::StereoPair pair = test::textured_pair([shift](int) { return shift; });
-      write_png(path(left + "/" + name), pair.left.view());
-      write_png(path(right + "/" + name), pair.right.view());
+      write_png((fs::path(path(left)) / name).string(), pair.left.view());
+      write_png((fs::path(path(right)) / name).string(), pair.right.view());
       ++shift;
     }
   }
