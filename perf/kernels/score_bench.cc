@@ -13,7 +13,7 @@ void score_reference(benchmark::State& state) {
   geometry.focal_px = 420;
   geometry.baseline_m = 0.12;
   geometry.height_m = 0.6;
-  std::vector<CellThresholds> thresholds(200 * 200);
+  std::vector<CellThresholds> thresholds(std::size_t{200} * 200);
   bench::require_ok(build_score_table(grid.view().geometry, geometry, thresholds));
   for (auto _ : state)
     bench::require_ok(score_ref(thresholds, 70, grid.view()));

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
-constexpr std::int64_t kPixels = kWidth * kHeight;
+constexpr std::int64_t kPixels = std::int64_t{kWidth} * kHeight;
 
 PruneGeometry camera() {
   PruneGeometry g;

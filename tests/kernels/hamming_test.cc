@@ -11,10 +11,12 @@ namespace {
 TEST(Hamming, HandComputedRow) {
   const std::vector<std::uint32_t> left = {0b0000, 0b0001, 0b0011, 0b0111};
   const std::vector<std::uint32_t> right = {0b0000, 0b1111, 0b0011, 0x7FFFFFFF};
-  std::vector<std::uint8_t> cost(4 * 16, 99);
+  std::vector<std::uint8_t> cost(std::size_t{4} * 16, 99);
   ASSERT_EQ(hamming_row_ref(left, right, {.first = 0, .disparities = 16, .valid_begin = 0, .valid_end = 4}, cost),
             Status::ok);
-  const auto at = [&](int u, int d) { return int{cost[static_cast<std::size_t>(16 * u + d)]}; };
+  const auto at = [&](int u, int d) {
+    return int{cost[std::size_t{16} * static_cast<std::size_t>(u) + static_cast<std::size_t>(d)]};
+  };
   EXPECT_EQ(at(0, 0), 0);
   EXPECT_EQ(at(0, 1), kOutsideCost);
   EXPECT_EQ(at(1, 0), 3);   // 0001 ^ 1111
@@ -30,7 +32,7 @@ TEST(Hamming, HandComputedRow) {
 TEST(Hamming, NegativeFirstDisparityLooksToTheRight) {
   const std::vector<std::uint32_t> left = {1, 1, 1};
   const std::vector<std::uint32_t> right = {1, 3, 7};
-  std::vector<std::uint8_t> cost(3 * 16);
+  std::vector<std::uint8_t> cost(std::size_t{3} * 16);
   ASSERT_EQ(hamming_row_ref(left, right, {.first = -2, .disparities = 16, .valid_begin = 0, .valid_end = 3}, cost),
             Status::ok);
   EXPECT_EQ(cost[0], 2);              // u 0 against u_right 2
@@ -41,7 +43,7 @@ TEST(Hamming, NegativeFirstDisparityLooksToTheRight) {
 
 TEST(Hamming, LeavesColumnsWithoutDescriptorsAlone) {
   const std::vector<std::uint32_t> codes(10, 5);
-  std::vector<std::uint8_t> cost(10 * 16, 99);
+  std::vector<std::uint8_t> cost(std::size_t{10} * 16, 99);
   ASSERT_EQ(hamming_row_ref(codes, codes, {.first = 0, .disparities = 16, .valid_begin = 4, .valid_end = 6}, cost),
             Status::ok);
   for (std::size_t i = 0; i < cost.size(); ++i) {
@@ -54,7 +56,7 @@ TEST(Hamming, LeavesColumnsWithoutDescriptorsAlone) {
 
 TEST(Hamming, RefusesWrongArguments) {
   const std::vector<std::uint32_t> codes(8);
-  std::vector<std::uint8_t> cost(8 * 16);
+  std::vector<std::uint8_t> cost(std::size_t{8} * 16);
   EXPECT_EQ(hamming_row_ref(codes, codes, {.first = 0, .disparities = 8, .valid_begin = 0, .valid_end = 8}, cost),
             Status::bad_argument);
   EXPECT_EQ(hamming_row_ref(codes, codes, {.first = 0, .disparities = 16, .valid_begin = 0, .valid_end = 9}, cost),

@@ -330,7 +330,8 @@ TEST(PruneModelTest, RefusesAbsurdGeometry) {
   g.pitch = 1.5;
   EXPECT_EQ(build_prune_model(g, table, table, m), Status::bad_argument);
   g = level_camera();
-  EXPECT_EQ(build_prune_model(g, std::span(table).first(64 * 16), table, m), Status::scratch_too_small);
+  EXPECT_EQ(build_prune_model(g, std::span(table).first(std::size_t{64} * 16), table, m),
+            Status::scratch_too_small);
 }
 
 }  // namespace

@@ -77,9 +77,9 @@ ScoreGeometry level_camera() {
 
 CellThresholds threshold(const ScoreGeometry& g, int row, int col) {
   const GridGeometry grid;
-  std::vector<CellThresholds> table(200 * 200);
+  std::vector<CellThresholds> table(std::size_t{200} * 200);
   EXPECT_EQ(build_score_table(grid, g, table), Status::ok);
-  return table[static_cast<std::size_t>(row * 200 + col)];
+  return table[static_cast<std::size_t>(row) * 200 + static_cast<std::size_t>(col)];
 }
 
 TEST(ScoreTable, FollowsTheFormula) {

@@ -15,7 +15,9 @@ constexpr int kCandidates = 16;
 // A row whose costs are 200 everywhere until a test sets some.
 class Select : public ::testing::Test {
  protected:
-  std::uint16_t& sum(int u, int i) { return sums_[static_cast<std::size_t>(u * kCandidates + i)]; }
+  std::uint16_t& sum(int u, int i) {
+    return sums_[static_cast<std::size_t>(u) * kCandidates + static_cast<std::size_t>(i)];
+  }
 
   int disparity_at(int u) {
     std::vector<std::int16_t> scratch(select_scratch_elements(kWidth));
