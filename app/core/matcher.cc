@@ -17,7 +17,7 @@ struct Border {
 };
 
 Border border_of(const MatcherConfig& c) {
-  if (c.name != "sad") return {kCensusRadiusU, kCensusRadiusV};
+  if (c.name != "sad") return {};  // census repeats the border
   const int radius = c.edge == kEdgeSobel ? kEdgeSobelRadius : kEdgeLogRadius;
   return {radius, radius};
 }
@@ -48,6 +48,8 @@ SgmParams sgm_params(const MatcherConfig& c, double doffs, int width) {
   p.paths = c.paths;
   p.p1 = c.p1;
   p.p2 = c.p2;
+  p.p2_min = c.p2_min;
+  p.p2_slope = c.p2_slope;
   p.warmup_rows = c.band_warmup_rows;
   return p;
 }
@@ -61,9 +63,8 @@ BlockParams block_params(const MatcherConfig& c, double doffs, int width) {
 }
 
 SupportParams support_params(const MatcherConfig& c) {
-  const int side = 2 * c.support_radius_px + 1;
   return {.radius = c.support_radius_px,
-          .min_count = std::max(1, c.support_min_percent * side * side / 100),
+          .min_percent = c.support_min_percent,
           .max_difference = c.support_max_difference};
 }
 
@@ -143,7 +144,7 @@ Status Matcher::match_band(int index, const ImageView<const std::uint8_t>& left)
     case Method::sgm:
       break;
   }
-  return kernels_->sgm(left_.codes, right_.codes, textured_, descriptor_rows_, sgm_, rows, scratch, matched_);
+  return kernels_->sgm(left, left_.codes, right_.codes, textured_, descriptor_rows_, sgm_, rows, scratch, matched_);
 }
 
 Status Matcher::match(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,

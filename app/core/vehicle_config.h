@@ -24,9 +24,11 @@ struct MatcherConfig {
   int disparities = 64;
   int min_disparity = 0;
   int paths = 3;
-  int p1 = 8;
-  int p2 = 40;
-  int uniqueness_percent = 10;
+  int p1 = 14;
+  int p2 = 135;
+  int p2_min = 36;
+  int p2_slope = 2;
+  int uniqueness_percent = 3;
   int texture_threshold = 4;
   int left_right_max_px = 1;
   int support_radius_px = 4;

@@ -107,8 +107,13 @@ void visit_matcher_keys(Matcher& c, Visitor& v) {
   v(Key{"matcher.min_disparity", "px", "Smallest disparity searched, doffs included"}, c.min_disparity,
     Range{0, 1024});
   v(Key{"matcher.paths", "", "sgm: aggregation paths, 5, or 3 without the two diagonals"}, c.paths, Range{3, 5, 2});
-  v(Key{"matcher.p1", "", "sgm: penalty for a disparity step of 1 px along a path (P1)"}, c.p1, Range{0, 200});
-  v(Key{"matcher.p2", "", "sgm: penalty for a larger disparity step (P2), at least p1"}, c.p2, Range{0, 200});
+  v(Key{"matcher.p1", "", "sgm: penalty for a disparity step of 1 px along a path (P1), at most p2_min"}, c.p1,
+    Range{0, 184});
+  v(Key{"matcher.p2", "", "sgm: penalty for a larger disparity step (P2) where the image is even"}, c.p2,
+    Range{0, 184});
+  v(Key{"matcher.p2_min", "", "sgm: least P2, across an edge of the image; at most p2"}, c.p2_min, Range{0, 184});
+  v(Key{"matcher.p2_slope", "per grey level", "sgm: by how much P2 falls per grey level between the two pixels"},
+    c.p2_slope, Range{0, 255});
   v(Key{"matcher.uniqueness_percent", "%",
         "Margin by which the best cost must beat every other that is not its neighbour"},
     c.uniqueness_percent, Range{0, 50});

@@ -45,7 +45,8 @@ std::string parameters_text(const MatcherConfig& c) {
     out << "census 9x7 centre-symmetric (" << kCensusBits << " bits)";
   }
   if (c.name == "sgm") {
-    out << ", " << c.paths << " paths, P1 " << c.p1 << ", P2 " << c.p2;
+    out << ", " << c.paths << " paths, cost over 3x3, P1 " << c.p1 << ", P2 " << c.p2 << " - " << c.p2_slope
+        << " |dI| >= " << c.p2_min;
   } else {
     out << ", window " << square(c.window_radius_px);
   }

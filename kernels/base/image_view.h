@@ -34,6 +34,14 @@ constexpr bool same_size(const ImageView<A>& a, const ImageView<B>& b) {
   return a.width == b.width && a.height == b.height;
 }
 
+// The pixel, or outside the image the nearest one of its border (the border is repeated). The image is not empty.
+template <class T>
+constexpr T& at_repeated(const ImageView<T>& image, int u, int v) {
+  const int x = u < 0 ? 0 : u < image.width ? u : image.width - 1;
+  const int y = v < 0 ? 0 : v < image.height ? v : image.height - 1;
+  return image.at(x, y);
+}
+
 template <class T>
 constexpr std::span<T> row_span(const ImageView<T>& image, int v) {
   return {image.row(v), static_cast<std::size_t>(image.width)};

@@ -19,8 +19,10 @@ inline constexpr int kCensusRadiusU = 4;
 inline constexpr int kCensusRadiusV = 3;
 inline constexpr int kCensusBits = 31;
 
-// image, codes: same size. Codes within the radius of the image's border are 0 and mean nothing.
-// `codes` must not overlap `image`. size_mismatch, bad_argument (rows outside).
+// Outside the image its border is repeated, so that every pixel has a code: two to three percent of an image lie
+// within the window's radius of its border, the bottom rows with the nearest floor among them.
+//
+// image, codes: same size. `codes` must not overlap `image`. size_mismatch, bad_argument (rows outside).
 Status census_ref(ImageView<const std::uint8_t> image, Rows rows, ImageView<std::uint32_t> codes);
 
 }  // namespace lakshya

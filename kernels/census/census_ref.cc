@@ -3,13 +3,15 @@
 namespace lakshya {
 namespace {
 
-std::uint32_t census_code(const ImageView<const std::uint8_t>& image, int u, int v) {
+// Pixel: how a pixel of the window is read.
+template <class Pixel>
+std::uint32_t census_code(int u, int v, const Pixel& pixel) {
   std::uint32_t code = 0;
   int bit = 0;
   for (int y = -kCensusRadiusV; y <= 0; ++y) {
     const int last_x = y < 0 ? kCensusRadiusU : -1;
     for (int x = -kCensusRadiusU; x <= last_x; ++x, ++bit) {
-      if (image.at(u + x, v + y) >= image.at(u - x, v - y)) code |= 1U << bit;
+      if (pixel(u + x, v + y) >= pixel(u - x, v - y)) code |= 1U << bit;
     }
   }
   return code;
@@ -20,11 +22,13 @@ std::uint32_t census_code(const ImageView<const std::uint8_t>& image, int u, int
 Status census_ref(ImageView<const std::uint8_t> image, Rows rows, ImageView<std::uint32_t> codes) {
   if (!same_size(image, codes)) return Status::size_mismatch;
   if (!rows_inside(rows, image)) return Status::bad_argument;
+  const auto inside_pixel = [&](int u, int v) { return image.at(u, v); };
+  const auto repeated_pixel = [&](int u, int v) { return at_repeated(image, u, v); };
   for (int v = rows.begin; v < rows.end; ++v) {
     const bool row_inside = v >= kCensusRadiusV && v < image.height - kCensusRadiusV;
     for (int u = 0; u < image.width; ++u) {
       const bool inside = row_inside && u >= kCensusRadiusU && u < image.width - kCensusRadiusU;
-      codes.at(u, v) = inside ? census_code(image, u, v) : 0;
+      codes.at(u, v) = inside ? census_code(u, v, inside_pixel) : census_code(u, v, repeated_pixel);
     }
   }
   return Status::ok;

@@ -23,4 +23,19 @@ inline constexpr std::uint8_t kOutsideCost = 10;
 Status hamming_row_ref(std::span<const std::uint32_t> left, std::span<const std::uint32_t> right,
                        const SearchRange& range, std::span<std::uint8_t> cost);
 
+// The same cost averaged over 3 x 3 pixels, in quarters of their sum:
+//
+//   out[u][i] = (sum over |x| <= 1 and the three rows of cost[u + x][i] + 1) >> 2            0 .. kMaxSmoothCost
+//
+// columns outside the valid ones repeat the nearest valid one. One pixel's code is noisy where texture is weak; over 17
+// pairs with ground truth the average raised sgm's density by 2.7 % and let fewer estimates be wrong. The quarter
+// instead of a ninth keeps the fractions (sub-pixel needs them), fits eight bits with P2 added, and is a rounding
+// average followed by a shift.
+inline constexpr int kMaxSmoothCost = 70;  // (9 * 31 + 1) >> 2
+
+// above, here, below: rows of hamming_row_ref. All of range.disparities * width bytes. bad_argument, size_mismatch.
+Status smooth_cost_row_ref(std::span<const std::uint8_t> above, std::span<const std::uint8_t> here,
+                           std::span<const std::uint8_t> below, const SearchRange& range,
+                           std::span<std::uint8_t> out);
+
 }  // namespace lakshya

@@ -4,11 +4,13 @@
 // S[u][i]: cost of candidate i, raw disparity first + i. In this order (docs/contract.md section 2):
 //   winner:      smallest S, the smaller disparity on a tie; when its right pixel is outside: kNotSearched
 //   uniqueness:  a candidate outside winner +-1 with S * (100 - uniqueness_percent) < 100 * S_min: kNotUnique
-//   left-right:  the right pixel's own winner over the same costs differs by more than left_right_max:
-//                kLeftRightFailed
 //   sub-pixel:   num = S(i-1) - S(i+1), den = max(S(i-1) + S(i+1) - 2 S(i), 1),
 //                d16 = 16 d + floor((16 num + den) / (2 den)): the vertex of the parabola through the three costs,
 //                rounded half up; none at the ends of the range
+//   left-right:  the disparity is rounded down and up to whole pixels; when of each right pixel that these name its
+//                own winner over the same costs differs from the left one by more than left_right_max:
+//                kLeftRightFailed (both, as OpenCV's StereoSGBM does: a disparity of 10.5 belongs to 10 and 11, and
+//                asking only one costs 0.6 % of the pixels)
 //   output:      d16 + offset16, so that 1/16 px disparities include doffs; a pixel without texture is kLowTexture
 // Source: H. Hirschmueller, "Stereo Processing by Semiglobal Matching and Mutual Information", PAMI 2008 (left-right
 // check, quadratic sub-pixel).

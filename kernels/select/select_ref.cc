@@ -58,15 +58,27 @@ std::int32_t sub_pixel(const CostRow& row, int u, int best) {
   return floor_divide(kDisparityScale * numerator + denominator, 2 * denominator);
 }
 
+bool left_right_agree(const CostRow& row, int u, int best, int fraction16, std::span<const std::int16_t> right,
+                      int left_right_max) {
+  const int down = best + (fraction16 < 0 ? -1 : 0);
+  const int up = best + (fraction16 > 0 ? 1 : 0);
+  for (int i = down; i <= up; ++i) {
+    const int u_right = row.right_column(u, i);
+    if (row.valid(u_right) && std::abs(best - right[static_cast<std::size_t>(u_right)]) <= left_right_max)
+      return true;
+  }
+  return false;
+}
+
 std::int16_t select_pixel(const CostRow& row, int u, std::span<const std::int16_t> right, const SelectParams& p) {
   const int best = winner(row, u);
-  const int u_right = row.right_column(u, best);
-  if (!row.valid(u_right)) return kNotSearched;
+  if (!row.valid(row.right_column(u, best))) return kNotSearched;
   if (!unique(row, u, best, p.uniqueness_percent)) return kNotUnique;
-  const int difference = std::abs(best - right[static_cast<std::size_t>(u_right)]);
-  if (p.left_right_max >= 0 && difference > p.left_right_max) return kLeftRightFailed;
-  return static_cast<std::int16_t>(kDisparityScale * (row.range.first + best) + sub_pixel(row, u, best) +
-                                   p.offset16);
+  const std::int32_t fraction16 = sub_pixel(row, u, best);
+  if (p.left_right_max >= 0 && !left_right_agree(row, u, best, fraction16, right, p.left_right_max)) {
+    return kLeftRightFailed;
+  }
+  return static_cast<std::int16_t>(kDisparityScale * (row.range.first + best) + fraction16 + p.offset16);
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstdlib>
+#include <iterator>
 
 #include "kernels/base/scratch.h"
 #include "kernels/base/units.h"
@@ -12,6 +14,7 @@ constexpr int kTopPaths = 3;  // top, top-left, top-right
 
 // The rows that one band keeps.
 struct BandRows {
+  std::span<std::uint8_t> hamming[3];          // Hamming distances of the row above, this one and the one below
   std::span<std::uint8_t> cost;                // C of the current row
   std::span<std::uint16_t> sums;               // S of the current row
   std::span<std::uint8_t> above[kTopPaths];    // L_r of the row above, one buffer per path
@@ -24,6 +27,8 @@ BandRows lay_out(int width, int disparities, ScratchLayout& scratch) {
   const auto candidates = static_cast<std::size_t>(disparities);
   const std::size_t row = static_cast<std::size_t>(width) * candidates;
   BandRows r;
+  for (std::span<std::uint8_t>& distances : r.hamming)
+    distances = scratch.take<std::uint8_t>(row);
   r.cost = scratch.take<std::uint8_t>(row);
   r.sums = scratch.take<std::uint16_t>(row);
   for (int path = 0; path < kTopPaths; ++path) {
@@ -37,7 +42,7 @@ BandRows lay_out(int width, int disparities, ScratchLayout& scratch) {
 }
 
 // L_r of one pixel; `previous` empty where the path starts.
-void path_cost(std::span<const std::uint8_t> cost, std::span<const std::uint8_t> previous, const SgmParams& p,
+void path_cost(std::span<const std::uint8_t> cost, std::span<const std::uint8_t> previous, int p1, int p2,
                std::span<std::uint8_t> out) {
   if (previous.empty()) {
     std::copy(cost.begin(), cost.end(), out.begin());
@@ -47,9 +52,9 @@ void path_cost(std::span<const std::uint8_t> cost, std::span<const std::uint8_t>
   const std::size_t last = cost.size() - 1;
   for (std::size_t i = 0; i <= last; ++i) {
     const int stay = previous[i];
-    const int below = (i > 0 ? previous[i - 1] : 255) + p.p1;
-    const int beyond = (i < last ? previous[i + 1] : 255) + p.p1;
-    const int jump = least + p.p2;
+    const int below = (i > 0 ? previous[i - 1] : 255) + p1;
+    const int beyond = (i < last ? previous[i + 1] : 255) + p1;
+    const int jump = least + p2;
     const int best = std::min({stay, below, beyond, jump});
     out[i] = static_cast<std::uint8_t>(std::min(cost[i] + best - least, 255));
   }
@@ -57,9 +62,11 @@ void path_cost(std::span<const std::uint8_t> cost, std::span<const std::uint8_t>
 
 class Band {
  public:
-  Band(const SgmParams& params, const BandRows& rows) : p_(params), rows_(rows) {}
+  Band(const SgmParams& params, const BandRows& rows, const ImageView<const std::uint8_t>& image)
+      : p_(params), rows_(rows), image_(image) {}
 
-  void aggregate_row(bool first_row) {
+  void aggregate_row(int v, bool first_row) {
+    v_ = v;
     std::fill(rows_.sums.begin(), rows_.sums.end(), std::uint16_t{0});
     horizontal_path(p_.range.valid_begin, p_.range.valid_end, 1);
     horizontal_path(p_.range.valid_end - 1, p_.range.valid_begin - 1, -1);
@@ -70,13 +77,19 @@ class Band {
     }
   }
 
-  const BandRows& rows() const { return rows_; }
+  BandRows& rows() { return rows_; }
 
  private:
   template <class T>
   std::span<T> pixel(std::span<T> row, int u) const {
     const auto n = static_cast<std::size_t>(p_.range.disparities);
     return row.subspan(static_cast<std::size_t>(u) * n, n);
+  }
+
+  // P2 of the step to pixel (u, v_) from (from_u, from_v).
+  int jump_penalty(int u, int from_u, int from_v) const {
+    const int step = std::abs(int{image_.at(u, v_)} - int{image_.at(from_u, from_v)});
+    return std::max(p_.p2 - p_.p2_slope * step, p_.p2_min);
   }
 
   void add_to_sums(int u, std::span<const std::uint8_t> path) {
@@ -89,7 +102,8 @@ class Band {
     std::span<const std::uint8_t> previous;
     int side = 0;
     for (int u = begin; u != end; u += step, side = 1 - side) {
-      path_cost(pixel(rows_.cost, u), previous, p_, rows_.sideways[side]);
+      const int p2 = u == begin ? 0 : jump_penalty(u, u - step, v_);
+      path_cost(pixel(rows_.cost, u), previous, p_.p1, p2, rows_.sideways[side]);
       add_to_sums(u, rows_.sideways[side]);
       previous = rows_.sideways[side];
     }
@@ -102,7 +116,8 @@ class Band {
       const bool starts = first_row || from < p_.range.valid_begin || from >= p_.range.valid_end;
       const std::span<const std::uint8_t> previous =
           starts ? std::span<const std::uint8_t>{} : pixel(rows_.above[path], from);
-      path_cost(pixel(rows_.cost, u), previous, p_, pixel(rows_.current[path], u));
+      const int p2 = starts ? 0 : jump_penalty(u, from, v_ - 1);
+      path_cost(pixel(rows_.cost, u), previous, p_.p1, p2, pixel(rows_.current[path], u));
       add_to_sums(u, pixel(rows_.current[path], u));
     }
     std::swap(rows_.above[path], rows_.current[path]);
@@ -110,11 +125,50 @@ class Band {
 
   const SgmParams& p_;
   BandRows rows_;
+  ImageView<const std::uint8_t> image_;
+  int v_ = 0;
+};
+
+// Keeps the Hamming distances of three rows and gives C of the middle one. Rows beyond the descriptors repeat the
+// nearest one that has them.
+class CostRows {
+ public:
+  CostRows(const ImageView<const std::uint32_t>& left, const ImageView<const std::uint32_t>& right,
+           const SearchRange& range, Rows descriptor_rows)
+      : left_(left), right_(right), range_(range), last_(descriptor_rows.end - 1), first_(descriptor_rows.begin) {}
+
+  // For the first row of a band, then for each following one.
+  Status start(int v, BandRows& rows) const {
+    Status status = distances(std::max(v - 1, first_), rows.hamming[0]);
+    if (status == Status::ok) status = distances(v, rows.hamming[1]);
+    if (status == Status::ok) status = distances(std::min(v + 1, last_), rows.hamming[2]);
+    return status == Status::ok ? smooth(rows) : status;
+  }
+  Status next(int v, BandRows& rows) const {
+    std::rotate(std::begin(rows.hamming), std::begin(rows.hamming) + 1, std::end(rows.hamming));
+    const Status status = distances(std::min(v + 1, last_), rows.hamming[2]);
+    return status == Status::ok ? smooth(rows) : status;
+  }
+
+ private:
+  Status distances(int v, std::span<std::uint8_t> out) const {
+    return hamming_row_ref(row_span(left_, v), row_span(right_, v), range_, out);
+  }
+  Status smooth(BandRows& rows) const {
+    return smooth_cost_row_ref(rows.hamming[0], rows.hamming[1], rows.hamming[2], range_, rows.cost);
+  }
+
+  ImageView<const std::uint32_t> left_;
+  ImageView<const std::uint32_t> right_;
+  SearchRange range_;
+  int last_;
+  int first_;
 };
 
 bool params_ok(const SgmParams& p, int width) {
-  return search_range_ok(p.range, width) && (p.paths == 3 || p.paths == 5) && 0 <= p.p1 && p.p1 <= p.p2 &&
-         p.p2 <= 200 && p.warmup_rows >= 0;
+  return search_range_ok(p.range, width) && (p.paths == 3 || p.paths == 5) && 0 <= p.p1 && p.p1 <= p.p2_min &&
+         p.p2_min <= p.p2 && p.p2 < 255 - kMaxSmoothCost && 0 <= p.p2_slope && p.p2_slope <= 255 &&
+         p.warmup_rows >= 0;
 }
 
 }  // namespace
@@ -125,10 +179,12 @@ std::size_t sgm_scratch_bytes(int width, int disparities) {
   return layout.used();
 }
 
-Status sgm_ref(ImageView<const std::uint32_t> left, ImageView<const std::uint32_t> right,
-               ImageView<const std::uint8_t> textured, Rows descriptor_rows, const SgmParams& params, Rows rows,
-               std::span<std::byte> scratch, ImageView<std::int16_t> disparity) {
-  if (!same_size(left, right) || !same_size(left, textured) || !same_size(left, disparity)) {
+Status sgm_ref(ImageView<const std::uint8_t> image, ImageView<const std::uint32_t> left,
+               ImageView<const std::uint32_t> right, ImageView<const std::uint8_t> textured, Rows descriptor_rows,
+               const SgmParams& params, Rows rows, std::span<std::byte> scratch,
+               ImageView<std::int16_t> disparity) {
+  if (!same_size(left, image) || !same_size(left, right) || !same_size(left, textured) ||
+      !same_size(left, disparity)) {
     return Status::size_mismatch;
   }
   if (!params_ok(params, left.width) || !rows_inside(rows, left) || !rows_inside(descriptor_rows, left)) {
@@ -137,16 +193,17 @@ Status sgm_ref(ImageView<const std::uint32_t> left, ImageView<const std::uint32_
   if (scratch.size() < sgm_scratch_bytes(left.width, params.range.disparities)) return Status::scratch_too_small;
 
   ScratchLayout layout(scratch.data());
-  Band band(params, lay_out(left.width, params.range.disparities, layout));
+  Band band(params, lay_out(left.width, params.range.disparities, layout), image);
+  const CostRows costs(left, right, params.range, descriptor_rows);
   const int first = std::max(descriptor_rows.begin, rows.begin - params.warmup_rows);
   const int last = std::min(descriptor_rows.end, rows.end);
   for (int v = rows.begin; v < rows.end; ++v) {
     if (v < first || v >= last) std::fill_n(disparity.row(v), disparity.width, std::int16_t{kNotSearched});
   }
   for (int v = first; v < last; ++v) {
-    Status status = hamming_row_ref(row_span(left, v), row_span(right, v), params.range, band.rows().cost);
+    Status status = v == first ? costs.start(v, band.rows()) : costs.next(v, band.rows());
     if (status != Status::ok) return status;
-    band.aggregate_row(v == first);
+    band.aggregate_row(v, v == first);
     if (v < rows.begin) continue;
     status = select_row_ref(band.rows().sums, row_span(textured, v), params.range, params.select,
                             band.rows().select, row_span(disparity, v));

@@ -113,7 +113,7 @@ TEST(ScoreTable, FallsWithDistanceAndIsTheSameAcrossALevelRow) {
 TEST(ScoreTable, RefusesWrongArguments) {
   std::vector<CellThresholds> table(10);
   EXPECT_EQ(build_score_table({}, level_camera(), table), Status::size_mismatch);
-  table.resize(200 * 200);
+  table.resize(std::size_t{200} * 200);
   ScoreGeometry g = level_camera();
   g.min_count = 0;
   EXPECT_EQ(build_score_table({}, g, table), Status::bad_argument);

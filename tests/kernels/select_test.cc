@@ -32,7 +32,7 @@ class Select : public ::testing::Test {
     if (i < kCandidates - 1) sum(u, i + 1) = 100;
   }
 
-  std::vector<std::uint16_t> sums_ = std::vector<std::uint16_t>(kWidth * kCandidates, 200);
+  std::vector<std::uint16_t> sums_ = std::vector<std::uint16_t>(std::size_t{kWidth} * kCandidates, 200);
   std::vector<std::uint8_t> textured_ = std::vector<std::uint8_t>(kWidth, 1);
   std::vector<std::int16_t> out_ = std::vector<std::int16_t>(kWidth, 999);
   SearchRange range_{.first = 0, .disparities = kCandidates, .valid_begin = 0, .valid_end = kWidth};
