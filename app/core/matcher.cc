@@ -36,7 +36,7 @@ Rows descriptor_rows(const MatcherConfig& c, int height) {
 }
 
 SelectParams select_params(const MatcherConfig& c, double doffs) {
-  return {.uniqueness_percent = c.uniqueness_percent,
+  return {.uniqueness_percent = c.name == "sgm" ? c.uniqueness_percent : c.window_uniqueness_percent,
           .left_right_max = c.left_right_max_px,
           .offset16 = stored_range(c.min_disparity, doffs).offset16};
 }
@@ -64,7 +64,7 @@ BlockParams block_params(const MatcherConfig& c, double doffs, int width) {
 
 SupportParams support_params(const MatcherConfig& c) {
   return {.radius = c.support_radius_px,
-          .min_percent = c.support_min_percent,
+          .min_percent = c.name == "sgm" ? c.support_min_percent : c.window_support_min_percent,
           .max_difference = c.support_max_difference};
 }
 

@@ -37,6 +37,8 @@ struct MatcherConfig {
   int bands = 4;
   int band_warmup_rows = 16;
   int window_radius_px = 5;  // sad, census
+  int window_uniqueness_percent = 10;
+  int window_support_min_percent = 50;
   std::string edge = "log";  // sad
   int edge_cap = 31;         // sad
 };

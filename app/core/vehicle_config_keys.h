@@ -115,7 +115,7 @@ void visit_matcher_keys(Matcher& c, Visitor& v) {
   v(Key{"matcher.p2_slope", "per grey level", "sgm: by how much P2 falls per grey level between the two pixels"},
     c.p2_slope, Range{0, 255});
   v(Key{"matcher.uniqueness_percent", "%",
-        "Margin by which the best cost must beat every other that is not its neighbour"},
+        "sgm: margin by which the best cost must beat every other that is not its neighbour"},
     c.uniqueness_percent, Range{0, 50});
   v(Key{"matcher.texture_threshold", "grey levels",
         "Sum of grey-level differences along the row in the 9 x 7 window below which a pixel is not matched"},
@@ -126,7 +126,7 @@ void visit_matcher_keys(Matcher& c, Visitor& v) {
         "Half width of the window in which neighbours must agree; 0: no such test"},
     c.support_radius_px, Range{0, 15});
   v(Key{"matcher.support_min_percent", "%",
-        "Share of that window's pixels that must agree with its centre, itself included"},
+        "sgm: share of that window's pixels that must agree with its centre, itself included"},
     c.support_min_percent, Range{0, 100});
   v(Key{"matcher.support_max_difference", "sixteenths of a px",
         "Largest difference of disparity that still agrees"},
@@ -138,6 +138,10 @@ void visit_matcher_keys(Matcher& c, Visitor& v) {
     Range{0, 256});
   v(Key{"matcher.window_radius_px", "px", "census, sad: half width of the square window that is compared"},
     c.window_radius_px, Range{0, 15});
+  v(Key{"matcher.window_uniqueness_percent", "%", "census, sad: uniqueness_percent of these matchers"},
+    c.window_uniqueness_percent, Range{0, 50});
+  v(Key{"matcher.window_support_min_percent", "%", "census, sad: support_min_percent of these matchers"},
+    c.window_support_min_percent, Range{0, 100});
   v(Key{"matcher.edge", "",
         "sad: edge filter before the comparison (log: Laplacian of Gaussian; sobel: along the row)"},
     c.edge, Names{kEdgeNames});

@@ -37,6 +37,7 @@ std::string parameters_text(const MatcherConfig& c) {
     const std::string side = std::to_string(2 * radius + 1);
     return side + "x" + side;
   };
+  const bool sgm = c.name == "sgm";
   std::ostringstream out;
   if (c.name == "sad") {
     out << "absolute differences of " << (c.edge == "log" ? "Laplacian-of-Gaussian" : "x-Sobel") << " edges, cap "
@@ -44,14 +45,15 @@ std::string parameters_text(const MatcherConfig& c) {
   } else {
     out << "census 9x7 centre-symmetric (" << kCensusBits << " bits)";
   }
-  if (c.name == "sgm") {
+  if (sgm) {
     out << ", " << c.paths << " paths, cost over 3x3, P1 " << c.p1 << ", P2 " << c.p2 << " - " << c.p2_slope
         << " |dI| >= " << c.p2_min;
   } else {
     out << ", window " << square(c.window_radius_px);
   }
-  out << ", uniqueness " << c.uniqueness_percent << " %, left-right " << c.left_right_max_px << " px, texture "
-      << c.texture_threshold << ", support " << c.support_min_percent << " % of " << square(c.support_radius_px);
+  out << ", uniqueness " << (sgm ? c.uniqueness_percent : c.window_uniqueness_percent) << " %, left-right "
+      << c.left_right_max_px << " px, texture " << c.texture_threshold << ", support "
+      << (sgm ? c.support_min_percent : c.window_support_min_percent) << " % of " << square(c.support_radius_px);
   return out.str();
 }
 

@@ -10,16 +10,17 @@ void sgm_reference(benchmark::State& state) {
   const int disparities = static_cast<int>(state.range(0));
   const auto left = bench::random_image<std::uint32_t>(0, 0x7FFFFFFF, 1);
   const auto right = bench::random_image<std::uint32_t>(0, 0x7FFFFFFF, 2);
+  const auto image = bench::random_image<std::uint8_t>(0, 255, 3);
   const Image<std::uint8_t> textured(bench::kWidth, bench::kHeight, 1);
   Image<std::int16_t> disparity(bench::kWidth, bench::kHeight);
   SgmParams params;
-  params.range = {.first = 0, .disparities = disparities, .valid_begin = 4, .valid_end = bench::kWidth - 4};
+  params.range = {.first = 0, .disparities = disparities, .valid_begin = 0, .valid_end = bench::kWidth};
   params.paths = static_cast<int>(state.range(1));
   const std::size_t bytes = sgm_scratch_bytes(bench::kWidth, disparities);
   Arena arena(bytes);
   const std::span<std::byte> scratch = arena.take<std::byte>(bytes);
   for (auto _ : state) {
-    bench::require_ok(sgm_ref(left.view(), right.view(), textured.view(), {3, bench::kHeight - 3}, params,
+    bench::require_ok(sgm_ref(image.view(), left.view(), right.view(), textured.view(), {0, bench::kHeight}, params,
                               {0, bench::kHeight}, scratch, disparity.view()));
     benchmark::DoNotOptimize(disparity.view().data);
   }

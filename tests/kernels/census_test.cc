@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/test_image.h"
 
 namespace lakshya {
@@ -70,21 +72,37 @@ TEST(Census, UnchangedByGainAndOffset) {
   }
 }
 
-TEST(Census, BordersAreZeroAndSmallImagesHaveNoCodes) {
-  for (const int width : {0, 1, 8, 9, 10}) {
-    for (const int height : {0, 1, 6, 7, 8}) {
-      const PaddedImage<std::uint8_t> image(width, height);
-      PaddedImage<std::uint32_t> codes(width, height);
-      ASSERT_EQ(census_ref(image.view(), {0, height}, codes.view()), Status::ok);
-      for (int v = 0; v < height; ++v) {
-        for (int u = 0; u < width; ++u) {
-          const bool inside = u >= 4 && u < width - 4 && v >= 3 && v < height - 3;
-          ASSERT_EQ(codes.view().at(u, v), inside ? kAllBits : 0U);
+// As if the image were larger, with its border pixels repeated outwards.
+TEST(Census, TheBorderIsRepeated) {
+  std::mt19937 random(8);
+  for (const int width : {1, 8, 9, 13}) {
+    for (const int height : {1, 6, 7, 11}) {
+      PaddedImage<std::uint8_t> image(width, height);
+      test::fill_random(image.view(), random, 0, 255);
+      PaddedImage<std::uint8_t> larger(width + 8, height + 6);
+      for (int v = 0; v < height + 6; ++v) {
+        for (int u = 0; u < width + 8; ++u) {
+          larger.view().at(u, v) =
+              image.view().at(std::clamp(u - 4, 0, width - 1), std::clamp(v - 3, 0, height - 1));
         }
+      }
+      PaddedImage<std::uint32_t> codes(width, height);
+      PaddedImage<std::uint32_t> expected(width + 8, height + 6);
+      ASSERT_EQ(census_ref(image.view(), {0, height}, codes.view()), Status::ok);
+      ASSERT_EQ(census_ref(larger.view(), {0, height + 6}, expected.view()), Status::ok);
+      for (int v = 0; v < height; ++v) {
+        for (int u = 0; u < width; ++u)
+          ASSERT_EQ(codes.view().at(u, v), expected.view().at(u + 4, v + 3)) << u << "," << v;
       }
       EXPECT_TRUE(codes.canaries_alive());
     }
   }
+}
+
+TEST(Census, EmptyImage) {
+  const PaddedImage<std::uint8_t> image(0, 0);
+  PaddedImage<std::uint32_t> codes(0, 0);
+  EXPECT_EQ(census_ref(image.view(), {0, 0}, codes.view()), Status::ok);
 }
 
 TEST(Census, RowRangesGiveTheSameAsTheWhole) {

@@ -54,6 +54,50 @@ TEST(Hamming, LeavesColumnsWithoutDescriptorsAlone) {
   }
 }
 
+// Three rows of three pixels; the left and right columns repeat themselves.
+TEST(SmoothCost, HandComputedRow) {
+  const SearchRange range{.first = 0, .disparities = 16, .valid_begin = 1, .valid_end = 4};
+  const auto row = [](int a, int b, int c) {
+    std::vector<std::uint8_t> cost(std::size_t{16} * 5, 31);  // columns 0 and 4 are not valid
+    for (std::size_t i = 0; i < 16; ++i) {
+      cost[16 + i] = static_cast<std::uint8_t>(a);
+      cost[32 + i] = static_cast<std::uint8_t>(b);
+      cost[48 + i] = static_cast<std::uint8_t>(c);
+    }
+    return cost;
+  };
+  std::vector<std::uint8_t> out(std::size_t{16} * 5, 99);
+  ASSERT_EQ(smooth_cost_row_ref(row(0, 1, 2), row(3, 4, 5), row(6, 7, 31), range, out), Status::ok);
+  for (std::size_t i = 0; i < 16; ++i) {
+    EXPECT_EQ(out[i], 99);
+    EXPECT_EQ(out[16 + i], (2 * (0 + 3 + 6) + (1 + 4 + 7) + 1) / 4);
+    EXPECT_EQ(out[32 + i], (0 + 1 + 2 + 3 + 4 + 5 + 6 + 7 + 31 + 1) / 4);
+    EXPECT_EQ(out[48 + i], ((1 + 4 + 7) + 2 * (2 + 5 + 31) + 1) / 4);
+    EXPECT_EQ(out[64 + i], 99);
+  }
+}
+
+TEST(SmoothCost, TheLargestFitsAndIsTheConstant) {
+  const SearchRange range{.first = 0, .disparities = 16, .valid_begin = 0, .valid_end = 2};
+  const std::vector<std::uint8_t> worst(32, 31);
+  std::vector<std::uint8_t> out(32);
+  ASSERT_EQ(smooth_cost_row_ref(worst, worst, worst, range, out), Status::ok);
+  EXPECT_EQ(out, std::vector<std::uint8_t>(32, kMaxSmoothCost));
+}
+
+TEST(SmoothCost, RefusesWrongArguments) {
+  const std::vector<std::uint8_t> row(32);
+  std::vector<std::uint8_t> out(32);
+  const std::vector<std::uint8_t> shorter(16);
+  SearchRange range{.first = 0, .disparities = 16, .valid_begin = 0, .valid_end = 2};
+  EXPECT_EQ(smooth_cost_row_ref(shorter, row, row, range, out), Status::size_mismatch);
+  EXPECT_EQ(smooth_cost_row_ref(row, row, shorter, range, out), Status::size_mismatch);
+  range.valid_end = 3;
+  EXPECT_EQ(smooth_cost_row_ref(row, row, row, range, out), Status::bad_argument);
+  range.disparities = 0;
+  EXPECT_EQ(smooth_cost_row_ref(row, row, row, range, out), Status::bad_argument);
+}
+
 TEST(Hamming, RefusesWrongArguments) {
   const std::vector<std::uint32_t> codes(8);
   std::vector<std::uint8_t> cost(std::size_t{8} * 16);

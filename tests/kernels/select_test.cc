@@ -107,6 +107,17 @@ TEST_F(Select, LeftRightCheckAllowsOnePixel) {
   EXPECT_EQ(disparity_at(20), 5 * 16);
 }
 
+// The disparity 4.8 names the right pixels 15 and 16: one that agrees is enough.
+TEST_F(Select, LeftRightCheckAsksBothNeighboursOfAFraction) {
+  sum(20, 5) = 20;
+  sum(20, 4) = 30;
+  sum(20, 6) = 40;   // num = -10, den = 30: 5 - 2/16
+  match(22, 7, 10);  // right pixel 15 prefers candidate 7
+  EXPECT_EQ(disparity_at(20), 5 * 16 - 3);
+  match(25, 9, 10);  // and right pixel 16 candidate 9
+  EXPECT_EQ(disparity_at(20), kLeftRightFailed);
+}
+
 TEST_F(Select, AMatchOutsideTheRightImageIsNotSearched) {
   match(3, 5);
   EXPECT_EQ(disparity_at(3), kNotSearched);

@@ -29,8 +29,9 @@ SgmParams params_for(int width, int disparities) {
 // explicit (dx, dy); costs straight from the codes.
 class NaiveSgm {
  public:
-  NaiveSgm(ImageView<const std::uint32_t> left, ImageView<const std::uint32_t> right, const SgmParams& p)
-      : left_(left), right_(right), p_(p) {}
+  NaiveSgm(ImageView<const std::uint8_t> image, ImageView<const std::uint32_t> left,
+           ImageView<const std::uint32_t> right, const SgmParams& p)
+      : image_(image), left_(left), right_(right), p_(p) {}
 
   int winner(int u, int v) {
     std::vector<int> total(static_cast<std::size_t>(p_.range.disparities), 0);
@@ -45,9 +46,23 @@ class NaiveSgm {
 
  private:
   int cost(int u, int v, int d) const {
+    int sum = 0;
+    for (int y = v - 1; y <= v + 1; ++y) {
+      for (int x = u - 1; x <= u + 1; ++x)
+        sum += hamming(std::clamp(x, 0, left_.width - 1), std::clamp(y, 0, left_.height - 1), d);
+    }
+    return (sum + 1) / 4;
+  }
+
+  int hamming(int u, int v, int d) const {
     const int other = u - d - p_.range.first;
     if (other < p_.range.valid_begin || other >= p_.range.valid_end) return kOutsideCost;
     return __builtin_popcount(left_.at(u, v) ^ right_.at(other, v));
+  }
+
+  int penalty(int u, int v, int dx, int dy) const {
+    const int step = std::abs(image_.at(u, v) - image_.at(u + dx, v + dy));
+    return std::max(p_.p2_min, p_.p2 - p_.p2_slope * step);
   }
 
   std::vector<int> along(int u, int v, int dx, int dy) const {
@@ -65,7 +80,8 @@ class NaiveSgm {
         int value = cost(u + steps * dx, v + steps * dy, static_cast<int>(i));
         if (!path.empty()) {
           const int least = *std::min_element(path.begin(), path.end());
-          int best = std::min(path[i], least + p_.p2);
+          const int p2 = penalty(u + steps * dx, v + steps * dy, dx, dy);
+          int best = std::min(path[i], least + p2);
           if (i > 0) best = std::min(best, path[i - 1] + p_.p1);
           if (i + 1 < n) best = std::min(best, path[i + 1] + p_.p1);
           value = std::min(value + best - least, 255);
@@ -77,6 +93,7 @@ class NaiveSgm {
     return path;
   }
 
+  ImageView<const std::uint8_t> image_;
   ImageView<const std::uint32_t> left_;
   ImageView<const std::uint32_t> right_;
   SgmParams p_;
@@ -98,6 +115,8 @@ TEST(Sgm, EqualsTheDefinitionOnRandomCodes) {
       PaddedImage<std::uint32_t> right(width, kHeight);
       fill_codes(left.view(), random);
       fill_codes(right.view(), random);
+      PaddedImage<std::uint8_t> image(width, kHeight);
+      test::fill_random(image.view(), random, 100, 160);  // steps on both sides of where P2 reaches its least
       const PaddedImage<std::uint8_t> textured(width, kHeight, 3, 1);
       PaddedImage<std::int16_t> out(width, kHeight);
       SgmParams p = params_for(width, 16);
@@ -106,10 +125,10 @@ TEST(Sgm, EqualsTheDefinitionOnRandomCodes) {
       p.select.offset16 = 48;
       p.warmup_rows = 0;
       const Scratch scratch(sgm_scratch_bytes(width, 16));
-      ASSERT_EQ(sgm_ref(left.view(), right.view(), textured.view(), {0, kHeight}, p, {0, kHeight}, scratch.span(),
-                        out.view()),
+      ASSERT_EQ(sgm_ref(image.view(), left.view(), right.view(), textured.view(), {0, kHeight}, p, {0, kHeight},
+                        scratch.span(), out.view()),
                 Status::ok);
-      NaiveSgm naive(left.view(), right.view(), p);
+      NaiveSgm naive(image.view(), left.view(), right.view(), p);
       for (int v = 0; v < kHeight; ++v) {
         for (int u = 0; u < width; ++u) {
           const int best = naive.winner(u, v);
@@ -152,8 +171,8 @@ TEST(Sgm, FindsAKnownShift) {
   p.range.valid_end = kWidth - 4;
   p.select = {.uniqueness_percent = 10, .left_right_max = 1, .offset16 = 0};
   const Scratch scratch(sgm_scratch_bytes(kWidth, 32));
-  ASSERT_EQ(sgm_ref(census_left.view(), census_right.view(), textured.view(), {3, kHeight - 3}, p, {0, kHeight},
-                    scratch.span(), out.view()),
+  ASSERT_EQ(sgm_ref(left.view(), census_left.view(), census_right.view(), textured.view(), {3, kHeight - 3}, p,
+                    {0, kHeight}, scratch.span(), out.view()),
             Status::ok);
   for (int v = 0; v < kHeight; ++v) {
     for (int u = 0; u < kWidth; ++u) {
@@ -171,6 +190,8 @@ TEST(Sgm, BandsWithEnoughWarmUpEqualTheWholeAndTheResultDoesNotDependOnOtherBand
   constexpr int kWidth = 25;
   constexpr int kHeight = 30;
   std::mt19937 random(7);
+  PaddedImage<std::uint8_t> image(kWidth, kHeight);
+  test::fill_random(image.view(), random, 0, 255);
   PaddedImage<std::uint32_t> left(kWidth, kHeight);
   PaddedImage<std::uint32_t> right(kWidth, kHeight);
   fill_codes(left.view(), random);
@@ -182,9 +203,9 @@ TEST(Sgm, BandsWithEnoughWarmUpEqualTheWholeAndTheResultDoesNotDependOnOtherBand
   PaddedImage<std::int16_t> whole(kWidth, kHeight);
   PaddedImage<std::int16_t> bands(kWidth, kHeight);
   const auto run = [&](Rows rows, PaddedImage<std::int16_t>& out) {
-    ASSERT_EQ(
-        sgm_ref(left.view(), right.view(), textured.view(), {0, kHeight}, p, rows, scratch.span(), out.view()),
-        Status::ok);
+    ASSERT_EQ(sgm_ref(image.view(), left.view(), right.view(), textured.view(), {0, kHeight}, p, rows,
+                      scratch.span(), out.view()),
+              Status::ok);
   };
   run({0, kHeight}, whole);
   run({20, 30}, bands);
@@ -199,17 +220,18 @@ TEST(Sgm, BandsWithEnoughWarmUpEqualTheWholeAndTheResultDoesNotDependOnOtherBand
 TEST(Sgm, ScratchDoesNotGrowWithTheImageAndIsNotOverrun) {
   constexpr int kWidth = 17;
   const std::size_t bytes = sgm_scratch_bytes(kWidth, 16);
-  EXPECT_LT(bytes, std::size_t{17 * 16 * 10 + 2048});
+  EXPECT_LT(bytes, std::size_t{17 * 16 * 13 + 2048});
   std::mt19937 random(8);
   PaddedImage<std::uint32_t> codes(kWidth, 200);
   fill_codes(codes.view(), random);
+  const PaddedImage<std::uint8_t> image(kWidth, 200);
   const PaddedImage<std::uint8_t> textured(kWidth, 200, 3, 1);
   PaddedImage<std::int16_t> out(kWidth, 200);
   const Scratch scratch(bytes + 64);
   std::fill(scratch.span().begin(), scratch.span().end(), std::byte{0x5A});
   const SgmParams p = params_for(kWidth, 16);
-  ASSERT_EQ(sgm_ref(codes.view(), codes.view(), textured.view(), {0, 200}, p, {0, 200}, scratch.span().first(bytes),
-                    out.view()),
+  ASSERT_EQ(sgm_ref(image.view(), codes.view(), codes.view(), textured.view(), {0, 200}, p, {0, 200},
+                    scratch.span().first(bytes), out.view()),
             Status::ok);
   for (std::size_t i = bytes; i < bytes + 64; ++i)
     ASSERT_EQ(scratch.span()[i], std::byte{0x5A});
@@ -217,25 +239,32 @@ TEST(Sgm, ScratchDoesNotGrowWithTheImageAndIsNotOverrun) {
 
 TEST(Sgm, RefusesWrongArguments) {
   PaddedImage<std::uint32_t> codes(20, 10);
+  PaddedImage<std::uint8_t> image(20, 10);
   PaddedImage<std::uint8_t> textured(20, 10);
   PaddedImage<std::int16_t> out(20, 10);
   const Scratch scratch(sgm_scratch_bytes(20, 16));
   const auto run = [&](const SgmParams& p, Rows rows, std::span<std::byte> bytes) {
-    return sgm_ref(codes.view(), codes.view(), textured.view(), {0, 10}, p, rows, bytes, out.view());
+    return sgm_ref(image.view(), codes.view(), codes.view(), textured.view(), {0, 10}, p, rows, bytes, out.view());
   };
   SgmParams p = params_for(20, 16);
   EXPECT_EQ(run(p, {0, 10}, scratch.span().first(scratch.span().size() - 1)), Status::scratch_too_small);
   EXPECT_EQ(run(p, {0, 11}, scratch.span()), Status::bad_argument);
-  p.p1 = 41;
+  p.p1 = 37;
   EXPECT_EQ(run(p, {0, 10}, scratch.span()), Status::bad_argument);
   p = params_for(20, 16);
-  p.p2 = 201;
+  p.p2 = 185;
+  EXPECT_EQ(run(p, {0, 10}, scratch.span()), Status::bad_argument);
+  p = params_for(20, 16);
+  p.p2_min = 136;
+  EXPECT_EQ(run(p, {0, 10}, scratch.span()), Status::bad_argument);
+  p = params_for(20, 16);
+  p.p2_slope = 256;
   EXPECT_EQ(run(p, {0, 10}, scratch.span()), Status::bad_argument);
   p = params_for(20, 16);
   p.paths = 4;
   EXPECT_EQ(run(p, {0, 10}, scratch.span()), Status::bad_argument);
   PaddedImage<std::int16_t> wrong(19, 10);
-  EXPECT_EQ(sgm_ref(codes.view(), codes.view(), textured.view(), {0, 10}, params_for(20, 16), {0, 10},
+  EXPECT_EQ(sgm_ref(image.view(), codes.view(), codes.view(), textured.view(), {0, 10}, params_for(20, 16), {0, 10},
                     scratch.span(), wrong.view()),
             Status::size_mismatch);
 }

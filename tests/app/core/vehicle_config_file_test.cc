@@ -94,10 +94,10 @@ TEST_F(VehicleConfigFile, EffectiveTextReadsBackAsTheSameValues) {
 }
 
 TEST_F(VehicleConfigFile, ContradictionNamesTheLineThatCameLast) {
-  expect_parts(refusal([&] { load("matcher:\n  p1: 30\n  p2: 20\n"); }),
+  expect_parts(refusal([&] { load("matcher:\n  p1: 30\n  p2_min: 20\n"); }),
                {"vehicle.yaml:3: matcher.p1: 30 must not"});
-  expect_parts(refusal([&] { load("matcher:\n  p1: 30\n", "", {"matcher.p2=20"}); }),
-               {"--set matcher.p2=20: matcher.p1"});
+  expect_parts(refusal([&] { load("matcher:\n  p1: 30\n", "", {"matcher.p2_min=20"}); }),
+               {"--set matcher.p2_min=20: matcher.p1"});
 }
 
 TEST_F(VehicleConfigFile, RefusesBrokenFilesWithLineKeyAndReason) {

@@ -177,8 +177,8 @@ TEST(VehicleConfigSet, Contradictions) {
       {"--set prune.floor_tolerance_m=0.6: prune.floor_tolerance_m: 0.6", "less than camera.height_m (0.6)"});
   expect_parts(set_refusal("camera.height_m=0.05"), {"accepted"});
   expect_parts(set_refusal("score.min_height_m=1.2"), {"less than prune.clearance_m (1.2)"});
-  expect_parts(set_refusal("matcher.p1=41"), {"not be more than matcher.p2 (40)"});
-  EXPECT_EQ(set_refusal("matcher.p1=40"), "accepted");
+  expect_parts(set_refusal("matcher.p1=37"), {"not be more than matcher.p2_min (36)"});
+  EXPECT_EQ(set_refusal("matcher.p1=36"), "accepted");
   expect_parts(set_refusal("planner.threshold_low=121"), {"not be more than planner.threshold_high (120)"});
   EXPECT_EQ(set_refusal("planner.threshold_low=120"), "accepted");
   expect_parts(set_refusal("planner.cost_target=4"), {"planner.cost_heading: 2 + planner.cost_previous (2)"});
