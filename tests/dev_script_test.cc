@@ -91,7 +91,7 @@ class DevScript : public testing::Test {
 TEST_F(DevScript, HelpNamesEveryCommand) {
   const Result help = dev("help");
   EXPECT_EQ(help.status, 0);
-  for (const char* command : {"demo", "test", "build", "bench", "fuzz", "data", "format", "tidy", "deps"}) {
+  for (const char* command : {"demo", "test", "build", "paper", "bench", "fuzz", "data", "format", "tidy", "deps"}) {
     EXPECT_TRUE(contains(help.output, std::string("\n  ") + command)) << command;
   }
   EXPECT_EQ(dev("").output, help.output);
@@ -155,6 +155,19 @@ TEST_F(DevScript, FuzzesTheReadersAndNamesTheReproducer) {
   EXPECT_TRUE(contains(unknown.output, "\nmap_json\npng\n")) << unknown.output;
   EXPECT_EQ(dev("fuzz 0").status, 2);
   EXPECT_EQ(dev("fuzz png 3s").status, 2);
+TEST_F(DevScript, ThePapersExperimentsAreToldWhereToDraw) {
+  add_file("tests/paper/floor_test.cc");
+  add_file("tests/kernels/sgm_test.cc");
+  add_file("out/paper/of_an_earlier_run.png");
+  stand_in("cmake", "echo cmake \"$@\"");
+  stand_in("ctest", "echo ctest \"$@\"; mkdir -p \"$LAKSHYA_PICTURES\"; : >\"$LAKSHYA_PICTURES/floor.png\"");
+  if (!is_debian_12()) GTEST_SKIP() << "only Debian 12 is set up by the script";
+  const Result result = dev("paper");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_TRUE(contains(result.output, "--target paper_floor_test\n")) << result.output;
+  EXPECT_TRUE(contains(result.output, "--tests-regex ^paper\\.\n")) << result.output;
+  EXPECT_TRUE(contains(result.output, " out/paper/floor.png\n")) << result.output;
+  EXPECT_FALSE(contains(result.output, "earlier")) << result.output;
 }
 
 TEST_F(DevScript, InstallsNothingWhenNothingIsMissing) {

@@ -48,7 +48,7 @@ class DepthPruning : public testing::Test {
   }
 
   PaperScene scene_ = room();
-  test::RenderedPair pair_ = render_pair(scene_.surfaces, scene_.rig);
+  const test::RenderedPair& pair_ = rendered(scene_);
   VehicleConfig config_ = config_for(scene_.rig, "indoor", {"prune.max_depth_m=3.5"});
 };
 

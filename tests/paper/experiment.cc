@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
@@ -48,6 +49,10 @@ Place center_of(const GridGeometry& g, int row, int col) {
   return {(row + 0.5) * cell, (g.cols / 2.0 - col - 0.5) * cell};
 }
 
+std::string place_text(const Place& p) {
+  return "(" + number_text(p.forward) + " m ahead, " + number_text(p.left) + " m left) ";
+}
+
 template <class Keep>
 ObjectCounts count_pixels(const test::RenderedPair& pair, Keep keep) {
   ObjectCounts counts{};
@@ -81,6 +86,13 @@ void add_floor(PaperScene& scene) {
                             200,
                             static_cast<std::uint8_t>(Object::floor),
                             {.gray = 105, .contrast = 38, .seed = 1000}});
+}
+
+const test::RenderedPair& rendered(const PaperScene& scene) {
+  static std::map<std::string, test::RenderedPair> pairs;
+  const auto known = pairs.find(scene.name);
+  if (known != pairs.end()) return known->second;
+  return pairs.emplace(scene.name, render_pair(scene.surfaces, scene.rig)).first->second;
 }
 
 StereoCalibration calibration_of(const test::CameraRig& rig) {
@@ -183,25 +195,43 @@ std::string stray_obstacles(const PaperScene& scene, const NavGrid& grid, const 
       const bool known = std::any_of(scene.things.begin(), scene.things.end(), [&](const Thing& t) {
         return distance_to(t.cuboid, p.forward, p.left) <= allowed;
       });
-      if (!known) text << "(" << p.forward << " m ahead, " << p.left << " m left) ";
+      if (!known) text << place_text(p);
     }
   }
   return text.str();
 }
 
 double front_found(const NavGrid& grid, const test::Cuboid& cuboid, double margin_m) {
-  const double front = cuboid.base.x - cuboid.size.x / 2;
   const double cell = grid.geometry.cell_mm / 1000.0;
-  int columns = 0;
+  const double front = cuboid.base.x - cuboid.size.x / 2;
+  const double right = cuboid.base.y - cuboid.size.y / 2;
+  const int columns = static_cast<int>(std::lround(cuboid.size.y / cell));
+  const int rows = static_cast<int>(std::lround(2 * margin_m / cell)) + 1;
   int found = 0;
-  for (double y = -cuboid.size.y / 2 + cell / 2; y < cuboid.size.y / 2; y += cell) {
-    ++columns;
+  for (int column = 0; column < columns; ++column) {
     bool obstacle = false;
-    for (double x = front - margin_m; x <= front + margin_m + cell / 2; x += cell / 2)
-      obstacle = obstacle || cell_at(grid, x, cuboid.base.y + y) == kCellObstacle;
+    for (int row = 0; row <= rows; ++row)
+      obstacle =
+          obstacle || cell_at(grid, front - margin_m + row * cell, right + (column + 0.5) * cell) == kCellObstacle;
     if (obstacle) ++found;
   }
   return columns == 0 ? 0 : static_cast<double>(found) / columns;
+}
+
+std::string not_free(const NavGrid& grid, const Area& area) {
+  const double cell = grid.geometry.cell_mm / 1000.0;
+  std::ostringstream text;
+  int cells = 0;
+  for (int row = 0; row < grid.geometry.rows; ++row) {
+    for (int col = 0; col < grid.geometry.cols; ++col) {
+      const Place p = center_of(grid.geometry, row, col);
+      const bool inside = p.forward - cell / 2 >= area.near_m - 1e-9 && p.forward + cell / 2 <= area.far_m + 1e-9 &&
+                          p.left - cell / 2 >= area.right_m - 1e-9 && p.left + cell / 2 <= area.left_m + 1e-9;
+      cells += inside ? 1 : 0;
+      if (inside && grid.type.at(col, row) != kCellUnoccupied) text << place_text(p);
+    }
+  }
+  return cells == 0 ? "no cell is inside" : text.str();
 }
 
 }  // namespace lakshya::paper

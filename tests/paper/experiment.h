@@ -43,6 +43,9 @@ void add_thing(PaperScene& scene, Object object, const test::Cuboid& cuboid, con
 // The ground plane.
 void add_floor(PaperScene& scene);
 
+// The scene's pair, made once per name and test executable: rendering takes as long as matching.
+const test::RenderedPair& rendered(const PaperScene& scene);
+
 // ---- running
 
 StereoCalibration calibration_of(const test::CameraRig& rig);
@@ -128,5 +131,15 @@ std::string stray_obstacles(const PaperScene& scene, const NavGrid& grid, const 
 
 // Share of the width of a cuboid's front (yaw 0) along which an obstacle cell lies within `margin_m` of it in depth.
 double front_found(const NavGrid& grid, const test::Cuboid& cuboid, double margin_m);
+
+// A part of the map, metres; left_m > right_m.
+struct Area {
+  double near_m = 0;
+  double far_m = 0;
+  double right_m = 0;
+  double left_m = 0;
+};
+// Cells wholly inside the area that are not unoccupied, as text; empty when there is none.
+std::string not_free(const NavGrid& grid, const Area& area);
 
 }  // namespace lakshya::paper

@@ -149,15 +149,11 @@ LegendItem outline_item() {
           [](Canvas& canvas, const Box& swatch) { canvas.frame(swatch, kInk); }};
 }
 
-void draw_legends(Canvas& sheet, const test::RenderedPair& pair, const PictureInput& input) {
-  const auto object = pair.left.object.view();
+void draw_legends(Canvas& sheet, const ObjectCounts& before, const PictureInput& input) {
   std::vector<LegendItem> items;
   for (int id = 1; id < kObjects; ++id) {
-    if (std::find(object.data, object.data + object.width * object.height, id) !=
-        object.data + object.width * object.height) {
-      const auto o = static_cast<Object>(id);
-      items.push_back(filled_item(std::string("points of the ") + to_string(o), color_of(o)));
-    }
+    const auto o = static_cast<Object>(id);
+    if (of(before, o) > 0) items.push_back(filled_item(std::string("points of the ") + to_string(o), color_of(o)));
   }
   items.push_back(outline_item());
   const int width = kSheetWidth - 2 * kMargin;
@@ -191,7 +187,7 @@ void write_sheet(const PaperScene& scene, const test::RenderedPair& pair, const 
   draw_map(sheet, map, view, input, MapDetail::overview, "");
   Canvas area = sheet.part(map);
   draw_outlines(area, view, scene);
-  draw_legends(sheet, pair, input);
+  draw_legends(sheet, experiment.kept[0], input);
 
   std::filesystem::create_directories(folder);
   write_png((std::filesystem::path(folder) / (scene.name + ".png")).string(), coarse(sheet.image()).view());

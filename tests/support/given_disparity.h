@@ -27,10 +27,9 @@ class GivenDisparity {
   }
 
  private:
-  static Status skip_matching(ImageView<const std::uint32_t> /*left*/, ImageView<const std::uint32_t> /*right*/,
-                              ImageView<const std::uint8_t> /*textured*/, Rows /*descriptor_rows*/,
-                              const SgmParams& /*params*/, Rows /*rows*/, std::span<std::byte> /*scratch*/,
-                              ImageView<std::int16_t> /*disparity*/) {
+  // Deduced from the table's entry, whatever its parameters are.
+  template <class... Arguments>
+  static Status skip_matching(Arguments... /*unused*/) {
     return Status::ok;
   }
   static Status copy_given(ImageView<const std::int16_t> /*matched*/, const SupportParams& /*params*/, Rows rows,
