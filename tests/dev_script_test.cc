@@ -155,6 +155,8 @@ TEST_F(DevScript, FuzzesTheReadersAndNamesTheReproducer) {
   EXPECT_TRUE(contains(unknown.output, "\nmap_json\npng\n")) << unknown.output;
   EXPECT_EQ(dev("fuzz 0").status, 2);
   EXPECT_EQ(dev("fuzz png 3s").status, 2);
+}
+
 TEST_F(DevScript, ThePapersExperimentsAreToldWhereToDraw) {
   add_file("tests/paper/floor_test.cc");
   add_file("tests/kernels/sgm_test.cc");

@@ -210,9 +210,9 @@ double front_found(const NavGrid& grid, const test::Cuboid& cuboid, double margi
   int found = 0;
   for (int column = 0; column < columns; ++column) {
     bool obstacle = false;
+    const double left = right + (column + 0.5) * cell;
     for (int row = 0; row <= rows; ++row)
-      obstacle =
-          obstacle || cell_at(grid, front - margin_m + row * cell, right + (column + 0.5) * cell) == kCellObstacle;
+      obstacle = obstacle || cell_at(grid, front - margin_m + row * cell, left) == kCellObstacle;
     if (obstacle) ++found;
   }
   return columns == 0 ? 0 : static_cast<double>(found) / columns;
