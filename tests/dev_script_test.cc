@@ -91,7 +91,8 @@ class DevScript : public testing::Test {
 TEST_F(DevScript, HelpNamesEveryCommand) {
   const Result help = dev("help");
   EXPECT_EQ(help.status, 0);
-  for (const char* command : {"demo", "test", "build", "paper", "bench", "fuzz", "data", "format", "tidy", "deps"}) {
+  for (const char* command :
+       {"demo", "test", "build", "paper", "accuracy", "bench", "fuzz", "data", "format", "tidy", "deps"}) {
     EXPECT_TRUE(contains(help.output, std::string("\n  ") + command)) << command;
   }
   EXPECT_EQ(dev("").output, help.output);
@@ -155,6 +156,10 @@ TEST_F(DevScript, FuzzesTheReadersAndNamesTheReproducer) {
   EXPECT_TRUE(contains(unknown.output, "\nmap_json\npng\n")) << unknown.output;
   EXPECT_EQ(dev("fuzz 0").status, 2);
   EXPECT_EQ(dev("fuzz png 3s").status, 2);
+}
+
+TEST_F(DevScript, AccuracyNeedsItsData) {
+  EXPECT_EQ(dev("accuracy", "LAKSHYA_DATA=").status, 1);
 }
 
 TEST_F(DevScript, ThePapersExperimentsAreToldWhereToDraw) {

@@ -114,7 +114,7 @@ TEST_F(Select, LeftRightCheckAsksBothNeighboursOfAFraction) {
   sum(20, 6) = 40;   // num = -10, den = 30: 5 - 2/16
   match(22, 7, 10);  // right pixel 15 prefers candidate 7
   EXPECT_EQ(disparity_at(20), 5 * 16 - 3);
-  match(25, 9, 10);  // and right pixel 16 candidate 9
+  match(23, 7, 10);  // and right pixel 16 too
   EXPECT_EQ(disparity_at(20), kLeftRightFailed);
 }
 

@@ -88,6 +88,7 @@ void repair_checksums(FileBytes& bytes) {
 class ImagePng : public testing::Test {
  protected:
   Image<std::uint8_t> read(const FileBytes& bytes) const { return read_gray(folder_.write("image", bytes)); }
+  std::string file(const FileBytes& bytes) const { return folder_.write("image", bytes); }
   std::string path(const std::string& name) const { return folder_.path(name); }
   std::string why(const FileBytes& bytes) const { return gray_refusal(folder_.write("image", bytes)); }
   std::string why16(const FileBytes& bytes) const { return gray16_refusal(folder_.write("image", bytes)); }
@@ -216,8 +217,15 @@ TEST_F(ImagePng, Gray16TakesOnlyGrayOf16Or8Bits) {
     EXPECT_CONTAINS(why16(make_png(1, {.color_type = color_type, .bit_depth = 16}, {FileBytes(8)})),
                     "not a grey image");
   }
-  const PngSpec palette{.color_type = PNG_COLOR_TYPE_PALETTE, .palette = {{1, 1, 1}}};
-  EXPECT_CONTAINS(why16(make_png(1, palette, {FileBytes(1)})), "not a grey image");
+}
+
+TEST_F(ImagePng, Gray16TakesGrayThatWasSavedAsColour) {
+  const PngSpec gray_palette{.color_type = PNG_COLOR_TYPE_PALETTE, .palette = {{7, 7, 7}}};
+  EXPECT_EQ(pixels(read_gray16(file(make_png(1, gray_palette, {FileBytes(1)})))), (std::vector<int>{7}));
+  const PngSpec rgb{.color_type = PNG_COLOR_TYPE_RGB};
+  EXPECT_EQ(pixels(read_gray16(file(make_png(2, rgb, {{9, 9, 9, 200, 200, 200}})))), (std::vector<int>{9, 200}));
+  EXPECT_CONTAINS(why16(make_png(2, rgb, {{9, 9, 9, 200, 200, 201}})), "is a colour image");
+  EXPECT_CONTAINS(why16(make_png(1, rgb, {{8, 9, 8}})), "is a colour image");
 }
 
 TEST_F(ImagePng, EveryCutIsRefused) {
