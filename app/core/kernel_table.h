@@ -1,6 +1,10 @@
 // Which implementation of each kernel the pipeline calls. A backend is one table; a new one is an addition.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <string_view>
+
 #include "kernels/block/block.h"
 #include "kernels/census/census.h"
 #include "kernels/edge/edge.h"
@@ -33,20 +37,56 @@ struct KernelTable {
 };
 
 inline constexpr KernelTable kReferenceKernels = {
-    rectify_ref,
-    census_ref,
-    texture_ref,
-    edge_sobel_ref,
-    edge_log_ref,
-    sgm_ref,
-    census_block_ref,
-    sad_block_ref,
-    support_ref,
-    ground_residuals_row_ref,
-    reproject_prune_row_ref,
-    bin_obstacles_ref,
-    bin_ground_ref,
-    score_ref,
+    .rectify = rectify_ref,
+    .census = census_ref,
+    .texture = texture_ref,
+    .edge_sobel = edge_sobel_ref,
+    .edge_log = edge_log_ref,
+    .sgm = sgm_ref,
+    .census_block = census_block_ref,
+    .sad_block = sad_block_ref,
+    .support = support_ref,
+    .ground_residuals_row = ground_residuals_row_ref,
+    .reproject_prune_row = reproject_prune_row_ref,
+    .bin_obstacles = bin_obstacles_ref,
+    .bin_ground = bin_ground_ref,
+    .score = score_ref,
 };
+
+// On the instruction set of kernels/base/isa.h; bit for bit what the reference gives.
+inline constexpr KernelTable kSimdKernels = {
+    .rectify = rectify_ref,
+    .census = census_simd,
+    .texture = texture_ref,
+    .edge_sobel = edge_sobel_ref,
+    .edge_log = edge_log_ref,
+    .sgm = sgm_ref,
+    .census_block = census_block_ref,
+    .sad_block = sad_block_ref,
+    .support = support_ref,
+    .ground_residuals_row = ground_residuals_row_ref,
+    .reproject_prune_row = reproject_prune_row_ref,
+    .bin_obstacles = bin_obstacles_ref,
+    .bin_ground = bin_ground_ref,
+    .score = score_ref,
+};
+
+// Where a backend's buffers live. The arena's are in host memory; a backend that wants them elsewhere needs an arena of
+// its own, and is refused with this one.
+enum class Memory : std::uint8_t { host, device };
+
+struct Backend {
+  const char* name;
+  Memory memory;
+  const KernelTable* kernels;
+};
+inline constexpr std::array<Backend, 2> kBackends = {{
+    {"ref", Memory::host, &kReferenceKernels},
+    {"simd", Memory::host, &kSimdKernels},
+}};
+
+// "simd" or "ref" for all kernels, or with exceptions, "simd,sgm=ref,score=ref" (names are the members of KernelTable).
+// Throws InputError: an unknown backend or kernel, or backends whose buffers live in different places.
+KernelTable kernels_by_name(std::string_view choice);
 
 }  // namespace lakshya

@@ -27,6 +27,7 @@ struct AccuracyOptions {
   std::vector<std::string> matchers{kMatcherNames.begin(), kMatcherNames.end()};
   std::vector<std::string> against{"opencv-bm", "opencv-sgbm", "opencv-sgbm-3way"};
   ConfigOptions config;
+  KernelOptions kernels;
 };
 
 struct ListedPair {
@@ -97,6 +98,7 @@ class Progress {
 void run_accuracy(const AccuracyOptions& o) {
   const VehicleConfig config = load_vehicle_config(o.config.config, o.config.profile, o.config.sets);
   const std::vector<ListedPair> pairs = read_list(o);
+  const KernelTable kernels = choose_kernels(o.kernels);
   std::vector<std::string> names = o.matchers;
   names.insert(names.end(), o.against.begin(), o.against.end());
   OutputFolder folder(o.out);
@@ -111,7 +113,7 @@ void run_accuracy(const AccuracyOptions& o) {
       PairResults result{listed.name, listed.disparities, {}};
       for (const std::string& name : names) {
         progress.next(listed.name + " " + name);
-        result.evaluations.push_back(evaluate(name, matcher, pair));
+        result.evaluations.push_back(evaluate(name, matcher, kernels, pair));
       }
       write_png(folder.file("error_" + listed.name + ".png"),
                 error_picture(listed.name, pair, result.evaluations).view());
@@ -142,6 +144,7 @@ void add_options(CLI::App& command, AccuracyOptions& o) {
       ->delimiter(',')
       ->check(CLI::IsMember(std::vector<std::string>{peers.begin(), peers.end()}));
   add_config_options(command, o.config);
+  add_kernel_options(command, o.kernels);
   command.footer(
       "Writes accuracy.md, accuracy.json, density_bad2.png and a picture of the errors for every pair.\n"
       "Example: lakshya accuracy --pairs perf/accuracy_pairs.json --data DATA --out out/accuracy --set "

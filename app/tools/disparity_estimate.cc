@@ -10,13 +10,13 @@
 
 namespace lakshya {
 
-DisparityEstimate match_pair(const MatcherConfig& config, const Image<std::uint8_t>& left,
-                             const Image<std::uint8_t>& right) {
+DisparityEstimate match_pair(const MatcherConfig& config, const KernelTable& kernels,
+                             const Image<std::uint8_t>& left, const Image<std::uint8_t>& right) {
   constexpr double kNoDoffs = 0;  // between the images themselves
   Arena measure;
-  (void)Matcher(config, kNoDoffs, left.width(), left.height(), kReferenceKernels, measure);
+  (void)Matcher(config, kNoDoffs, left.width(), left.height(), kernels, measure);
   Arena arena(measure.used());
-  Matcher matcher(config, kNoDoffs, left.width(), left.height(), kReferenceKernels, arena);
+  Matcher matcher(config, kNoDoffs, left.width(), left.height(), kernels, arena);
 
   const MonotonicClock clock;
   const Nanoseconds start = clock.now();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/core/image.h"
+#include "app/core/kernel_table.h"
 #include "app/core/vehicle_config.h"
 
 namespace lakshya {
@@ -16,9 +17,9 @@ struct DisparityEstimate {
   double ms = 0;                  // of the matching alone
 };
 
-// The scalar reference with config.name. Images of one size. Throws InputError when the search range lies outside.
-DisparityEstimate match_pair(const MatcherConfig& config, const Image<std::uint8_t>& left,
-                             const Image<std::uint8_t>& right);
+// With config.name. Images of one size. Throws InputError when the search range lies outside.
+DisparityEstimate match_pair(const MatcherConfig& config, const KernelTable& kernels,
+                             const Image<std::uint8_t>& left, const Image<std::uint8_t>& right);
 
 // What decides about a matcher's result, for reports: "census 9x7 ..., p1 8, ...".
 std::string parameters_text(const MatcherConfig& config);

@@ -21,6 +21,7 @@ struct EvalOptions {
   std::vector<std::string> matchers{kMatcherNames.begin(), kMatcherNames.end()};
   std::vector<std::string> against;
   ConfigOptions config;
+  KernelOptions kernels;
   bool json = false;
 };
 
@@ -28,6 +29,7 @@ void run_eval(EvalOptions& o) {
   VehicleConfig config = load_vehicle_config(o.config.config, o.config.profile, o.config.sets);
   config.matcher.disparities = round_up_to_16(o.disparities);
   config.matcher.min_disparity = o.min_disparity;
+  const KernelTable kernels = choose_kernels(o.kernels);
   o.files.format = parse_ground_truth_format(o.format);
   const GroundTruthPair pair = read_ground_truth_pair(o.files);
 
@@ -36,7 +38,7 @@ void run_eval(EvalOptions& o) {
   std::vector<Evaluation> results;
   for (const std::string& name : names) {
     spdlog::info("{} of {}: {}", results.size() + 1, names.size(), name);
-    results.push_back(evaluate(name, config.matcher, pair));
+    results.push_back(evaluate(name, config.matcher, kernels, pair));
   }
 
   if (!o.json) {
@@ -98,6 +100,7 @@ void add_options(CLI::App& command, EvalOptions& o) {
       ->delimiter(',')
       ->check(CLI::IsMember(std::vector<std::string>{peers.begin(), peers.end()}));
   add_config_options(command, o.config);
+  add_kernel_options(command, o.kernels);
   command.add_flag("--json", o.json, "Print JSON instead of a table");
   command.footer(
       "Rates are over the ground-truth pixels that have an estimate; density is the share that has one; d1 is an "

@@ -52,7 +52,8 @@ GroundTruthPair read_ground_truth_pair(const PairFiles& files) {
   return pair;
 }
 
-Evaluation evaluate(const std::string& matcher, MatcherConfig config, const GroundTruthPair& pair) {
+Evaluation evaluate(const std::string& matcher, MatcherConfig config, const KernelTable& kernels,
+                    const GroundTruthPair& pair) {
   const int blank = config.min_disparity + config.disparities;
   if (blank >= pair.left.width()) {
     throw InputError("search range", std::to_string(blank) + " px are not less than the image's width of " +
@@ -66,7 +67,7 @@ Evaluation evaluate(const std::string& matcher, MatcherConfig config, const Grou
   } else {
     config.name = matcher;
     result.parameters = parameters_text(config);
-    result.estimate = match_pair(config, pair.left, pair.right);
+    result.estimate = match_pair(config, kernels, pair.left, pair.right);
   }
   const ImageView<const std::int16_t> disparity = std::as_const(result.estimate.disparity).view();
   result.errors = compare_disparity(disparity, pair.truth.view(), blank);

@@ -42,7 +42,8 @@ struct Evaluation {
 
 // "sgm", "sad", "census" with `config`, or one of opencv_matcher_names(). The search range is the configuration's for
 // all. Throws InputError when the range is not inside the image.
-Evaluation evaluate(const std::string& matcher, MatcherConfig config, const GroundTruthPair& pair);
+Evaluation evaluate(const std::string& matcher, MatcherConfig config, const KernelTable& kernels,
+                    const GroundTruthPair& pair);
 
 // {"matcher":..,"gt_pixels":..,"density":..,...,"full_density":..,...,"ms":..,"parameters":..}; null where no pixel
 // has an estimate.

@@ -1,5 +1,8 @@
 #include "app/tools/options.h"
 
+#include "app/core/input_error.h"
+#include "kernels/base/isa.h"
+
 namespace lakshya {
 
 void add_config_options(CLI::App& command, ConfigOptions& options) {
@@ -10,6 +13,25 @@ void add_config_options(CLI::App& command, ConfigOptions& options) {
   command.add_option("--set", options.sets, "Override one value; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+}
+
+void add_kernel_options(CLI::App& command, KernelOptions& options) {
+  command
+      .add_option("--backend", options.backend,
+                  "Kernels: simd (default), or ref, the scalar reference; exceptions after it: simd,sgm=ref")
+      ->type_name("NAME");
+  command.add_option("--isa", options.isa, "Instruction set of the simd kernels: best (default), avx2, ...")
+      ->type_name("NAME");
+}
+
+KernelTable choose_kernels(const KernelOptions& options) {
+  if (use_isa(options.isa) != Status::ok) {
+    std::string names;
+    for (const char* name : available_isas())
+      names += (names.empty() ? "" : ", ") + std::string(name);
+    throw InputError("instruction set", "'" + options.isa + "' is not to be had here (there are: " + names + ")");
+  }
+  return kernels_by_name(options.backend);
 }
 
 CLI::Validator angle_in_degrees() {

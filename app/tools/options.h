@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "app/core/kernel_table.h"
+
 namespace lakshya {
 
 struct ConfigOptions {
@@ -15,6 +17,16 @@ struct ConfigOptions {
 
 // --config, --profile, --set
 void add_config_options(CLI::App& command, ConfigOptions& options);
+
+// --backend, --isa
+struct KernelOptions {
+  std::string backend = "simd";
+  std::string isa = "best";
+};
+void add_kernel_options(CLI::App& command, KernelOptions& options);
+
+// The kernels chosen; their instruction set is in use from now on. Throws InputError for what this machine has not.
+KernelTable choose_kernels(const KernelOptions& options);
 
 // Matchers search a multiple of 16 disparities.
 constexpr int round_up_to_16(int n) {

@@ -24,6 +24,7 @@
 #include "app/tools/process_report.h"
 #include "app/tools/stereo_input.h"
 #include "hal/clock/monotonic_clock.h"
+#include "kernels/base/isa.h"
 
 namespace lakshya {
 namespace {
@@ -32,6 +33,7 @@ struct ProcessOptions {
   StereoInputOptions input;
   std::string out;
   ConfigOptions config;
+  KernelOptions kernels;
   std::string matcher;
   std::optional<int> disparities;
   std::optional<int> min_disparity;
@@ -88,10 +90,10 @@ void process(const ProcessOptions& o) {
   const int width = input.left.width();
   const int height = input.left.height();
   const MonotonicClock clock;
-  Pipeline pipeline(config, input.calibration, width, height, kReferenceKernels, clock);
+  Pipeline pipeline(config, input.calibration, width, height, choose_kernels(o.kernels), clock);
 
-  spdlog::info("{}x{}, {} disparities: matching with the scalar reference", width, height,
-               config.matcher.disparities);
+  spdlog::info("{}x{}, {} disparities: kernels {} on {}", width, height, config.matcher.disparities,
+               o.kernels.backend, active_isa());
   OutputFolder folder(o.out);  // refuses before the long work, not after it
   FrameResult frame;
   const PlanInput plan{.target = o.target_deg * std::numbers::pi / 180};
@@ -124,6 +126,7 @@ void process(const ProcessOptions& o) {
 void add_options(CLI::App& command, ProcessOptions& o) {
   add_stereo_input_options(command, o.input);
   add_config_options(command, o.config);
+  add_kernel_options(command, o.kernels);
   command.add_option("--out", o.out, "Folder for the results; made when missing")->required();
   command.add_option("--matcher", o.matcher, "Matcher: sgm");
   command

@@ -24,5 +24,10 @@ inline constexpr int kCensusBits = 31;
 //
 // image, codes: same size. `codes` must not overlap `image`. size_mismatch, bad_argument (rows outside).
 Status census_ref(ImageView<const std::uint8_t> image, Rows rows, ImageView<std::uint32_t> codes);
+Status census_simd(ImageView<const std::uint8_t> image, Rows rows, ImageView<std::uint32_t> codes);
+
+// Columns [begin, end) of row v by the reference, everything inside: what a vector does not reach.
+void census_columns_ref(ImageView<const std::uint8_t> image, int v, int begin, int end,
+                        ImageView<std::uint32_t> codes);
 
 }  // namespace lakshya

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tests/support/each_isa.h"
 #include "tests/support/test_image.h"
 
 namespace lakshya {
@@ -118,6 +119,33 @@ TEST(Census, RowRangesGiveTheSameAsTheWhole) {
     for (int u = 0; u < 30; ++u)
       ASSERT_EQ(parts.view().at(u, v), whole.view().at(u, v));
   }
+}
+
+TEST(CensusSimd, EqualsTheReference) {
+  std::mt19937 random(4);
+  test::for_each_isa([&](const char* isa) {
+    for (const int width : test::awkward_widths()) {
+      for (const int height : {0, 1, 6, 7, 12}) {
+        PaddedImage<std::uint8_t> image(width, height);
+        test::fill_random(image.view(), random, 0, 255);
+        PaddedImage<std::uint32_t> expected(width, height);
+        PaddedImage<std::uint32_t> codes(width, height);
+        ASSERT_EQ(census_ref(image.view(), {0, height}, expected.view()), Status::ok);
+        for (const Rows rows : {Rows{0, height / 2}, Rows{height / 2, height}})
+          ASSERT_EQ(census_simd(image.view(), rows, codes.view()), Status::ok);
+        ASSERT_TRUE(test::equal_images(codes.view(), expected.view())) << isa << " " << width << "x" << height;
+        EXPECT_TRUE(codes.canaries_alive()) << isa << " " << width << "x" << height;
+      }
+    }
+  });
+}
+
+TEST(CensusSimd, RefusesWrongShapes) {
+  PaddedImage<std::uint8_t> image(9, 7);
+  PaddedImage<std::uint32_t> codes(9, 8);
+  EXPECT_EQ(census_simd(image.view(), {0, 7}, codes.view()), Status::size_mismatch);
+  PaddedImage<std::uint32_t> right(9, 7);
+  EXPECT_EQ(census_simd(image.view(), {0, 8}, right.view()), Status::bad_argument);
 }
 
 TEST(Census, RefusesWrongShapes) {

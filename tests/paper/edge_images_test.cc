@@ -56,7 +56,7 @@ class EdgeImages : public testing::Test {
     config.name = "sad";
     config.edge = edge;
     config.edge_cap = kCap;
-    return match_pair(config, pair_.left.gray, right);
+    return match_pair(config, kReferenceKernels, pair_.left.gray, right);
   }
   DisparityErrors errors(const DisparityEstimate& estimate) const {
     return compare_disparity(estimate.disparity.view(), pair_.disparity.view(), 64);

@@ -1,6 +1,8 @@
 // Images for tests: literal pixels, random pixels, padded strides with canaries.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstdint>
 #include <initializer_list>
 #include <random>
@@ -48,6 +50,20 @@ class PaddedImage {
   T canary_;
   std::vector<T> data_;
 };
+
+// Says where the first difference is.
+template <class A, class B>
+testing::AssertionResult equal_images(const ImageView<A>& actual, const ImageView<B>& expected) {
+  if (!same_size(actual, expected)) return testing::AssertionFailure() << "sizes differ";
+  for (int v = 0; v < actual.height; ++v) {
+    for (int u = 0; u < actual.width; ++u) {
+      if (actual.at(u, v) == expected.at(u, v)) continue;
+      return testing::AssertionFailure()
+             << "at (" << u << ", " << v << "): " << +actual.at(u, v) << ", expected " << +expected.at(u, v);
+    }
+  }
+  return testing::AssertionSuccess();
+}
 
 template <class T>
 void fill_random(ImageView<T> image, std::mt19937& random, int low, int high) {
