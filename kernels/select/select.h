@@ -36,9 +36,12 @@ constexpr std::size_t select_scratch_elements(int width) {
   return static_cast<std::size_t>(width);
 }
 
-// sums: width * range.disparities. textured: width flags. disparity: width, columns outside the valid ones become
+// sums: width * range.disparities, of 16 bits (windows) or 8 (paths). textured: width flags. disparity: width, columns outside the valid ones become
 // kNotSearched. No overlap. size_mismatch, bad_argument, scratch_too_small.
 Status select_row_ref(std::span<const std::uint16_t> sums, std::span<const std::uint8_t> textured,
+                      const SearchRange& range, const SelectParams& params, std::span<std::int16_t> scratch,
+                      std::span<std::int16_t> disparity);
+Status select_row_ref(std::span<const std::uint8_t> sums, std::span<const std::uint8_t> textured,
                       const SearchRange& range, const SelectParams& params, std::span<std::int16_t> scratch,
                       std::span<std::int16_t> disparity);
 

@@ -8,8 +8,9 @@ namespace lakshya {
 namespace {
 
 // One row's costs with the shape that goes with them.
+template <class Sum>
 struct CostRow {
-  std::span<const std::uint16_t> sums;
+  std::span<const Sum> sums;
   const SearchRange& range;
 
   std::int32_t at(int u, int i) const {
@@ -20,7 +21,8 @@ struct CostRow {
   int right_column(int u, int i) const { return u - (range.first + i); }
 };
 
-int winner(const CostRow& row, int u) {
+template <class Sum>
+int winner(const CostRow<Sum>& row, int u) {
   int best = 0;
   for (int i = 1; i < row.range.disparities; ++i) {
     if (row.at(u, i) < row.at(u, best)) best = i;
@@ -28,7 +30,8 @@ int winner(const CostRow& row, int u) {
   return best;
 }
 
-bool unique(const CostRow& row, int u, int best, int uniqueness_percent) {
+template <class Sum>
+bool unique(const CostRow<Sum>& row, int u, int best, int uniqueness_percent) {
   const std::int32_t limit = 100 * row.at(u, best);
   for (int i = 0; i < row.range.disparities; ++i) {
     if (std::abs(i - best) > 1 && row.at(u, i) * (100 - uniqueness_percent) < limit) return false;
@@ -37,7 +40,8 @@ bool unique(const CostRow& row, int u, int best, int uniqueness_percent) {
 }
 
 // Winner of a right-image pixel along the diagonal of the same costs; -1 when no left pixel can match it.
-std::int16_t right_winner(const CostRow& row, int u_right) {
+template <class Sum>
+std::int16_t right_winner(const CostRow<Sum>& row, int u_right) {
   int best = -1;
   for (int i = 0; i < row.range.disparities; ++i) {
     const int u = u_right + row.range.first + i;
@@ -48,7 +52,8 @@ std::int16_t right_winner(const CostRow& row, int u_right) {
 }
 
 // In 1/16 px relative to candidate `best`.
-std::int32_t sub_pixel(const CostRow& row, int u, int best) {
+template <class Sum>
+std::int32_t sub_pixel(const CostRow<Sum>& row, int u, int best) {
   if (best == 0 || best == row.range.disparities - 1) return 0;
   const std::int32_t before = row.at(u, best - 1);
   const std::int32_t after = row.at(u, best + 1);
@@ -58,7 +63,8 @@ std::int32_t sub_pixel(const CostRow& row, int u, int best) {
   return floor_divide(kDisparityScale * numerator + denominator, 2 * denominator);
 }
 
-bool left_right_agree(const CostRow& row, int u, int best, int fraction16, std::span<const std::int16_t> right,
+template <class Sum>
+bool left_right_agree(const CostRow<Sum>& row, int u, int best, int fraction16, std::span<const std::int16_t> right,
                       int left_right_max) {
   const int down = best + (fraction16 < 0 ? -1 : 0);
   const int up = best + (fraction16 > 0 ? 1 : 0);
@@ -70,7 +76,9 @@ bool left_right_agree(const CostRow& row, int u, int best, int fraction16, std::
   return false;
 }
 
-std::int16_t select_pixel(const CostRow& row, int u, std::span<const std::int16_t> right, const SelectParams& p) {
+template <class Sum>
+std::int16_t select_pixel(const CostRow<Sum>& row, int u, std::span<const std::int16_t> right,
+                          const SelectParams& p) {
   const int best = winner(row, u);
   if (!row.valid(row.right_column(u, best))) return kNotSearched;
   if (!unique(row, u, best, p.uniqueness_percent)) return kNotUnique;
@@ -81,11 +89,9 @@ std::int16_t select_pixel(const CostRow& row, int u, std::span<const std::int16_
   return static_cast<std::int16_t>(kDisparityScale * (row.range.first + best) + fraction16 + p.offset16);
 }
 
-}  // namespace
-
-Status select_row_ref(std::span<const std::uint16_t> sums, std::span<const std::uint8_t> textured,
-                      const SearchRange& range, const SelectParams& params, std::span<std::int16_t> scratch,
-                      std::span<std::int16_t> disparity) {
+template <class Sum>
+Status select_row(std::span<const Sum> sums, std::span<const std::uint8_t> textured, const SearchRange& range,
+                  const SelectParams& params, std::span<std::int16_t> scratch, std::span<std::int16_t> disparity) {
   const int width = static_cast<int>(disparity.size());
   if (!search_range_ok(range, width)) return Status::bad_argument;
   if (params.uniqueness_percent < 0 || params.uniqueness_percent > 99) return Status::bad_argument;
@@ -94,7 +100,7 @@ Status select_row_ref(std::span<const std::uint16_t> sums, std::span<const std::
   if (sums.size() != disparity.size() * static_cast<std::size_t>(range.disparities)) return Status::size_mismatch;
   if (scratch.size() < select_scratch_elements(width)) return Status::scratch_too_small;
 
-  const CostRow row{sums, range};
+  const CostRow<Sum> row{sums, range};
   for (int u = range.valid_begin; u < range.valid_end; ++u) {
     scratch[static_cast<std::size_t>(u)] = right_winner(row, u);
   }
@@ -109,6 +115,20 @@ Status select_row_ref(std::span<const std::uint16_t> sums, std::span<const std::
     }
   }
   return Status::ok;
+}
+
+}  // namespace
+
+Status select_row_ref(std::span<const std::uint16_t> sums, std::span<const std::uint8_t> textured,
+                      const SearchRange& range, const SelectParams& params, std::span<std::int16_t> scratch,
+                      std::span<std::int16_t> disparity) {
+  return select_row(sums, textured, range, params, scratch, disparity);
+}
+
+Status select_row_ref(std::span<const std::uint8_t> sums, std::span<const std::uint8_t> textured,
+                      const SearchRange& range, const SelectParams& params, std::span<std::int16_t> scratch,
+                      std::span<std::int16_t> disparity) {
+  return select_row(sums, textured, range, params, scratch, disparity);
 }
 
 }  // namespace lakshya

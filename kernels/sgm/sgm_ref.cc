@@ -6,17 +6,19 @@
 #include "kernels/base/units.h"
 #include "kernels/hamming/hamming.h"
 #include "kernels/sgm/sgm.h"
+#include "kernels/sgm/sgm_input.h"
 
 namespace lakshya {
 namespace {
 
+constexpr int kLargestSum = 255;
 constexpr int kTopPaths = 3;  // top, top-left, top-right
 
 // The rows that one band keeps.
 struct BandRows {
   std::span<std::uint8_t> hamming[3];          // Hamming distances of the row above, this one and the one below
   std::span<std::uint8_t> cost;                // C of the current row
-  std::span<std::uint16_t> sums;               // S of the current row
+  std::span<std::uint8_t> sums;                // S of the current row
   std::span<std::uint8_t> above[kTopPaths];    // L_r of the row above, one buffer per path
   std::span<std::uint8_t> current[kTopPaths];  // L_r of this row
   std::span<std::uint8_t> sideways[2];         // L_r of the previous and the current pixel of a horizontal path
@@ -30,7 +32,7 @@ BandRows lay_out(int width, int disparities, ScratchLayout& scratch) {
   for (std::span<std::uint8_t>& distances : r.hamming)
     distances = scratch.take<std::uint8_t>(row);
   r.cost = scratch.take<std::uint8_t>(row);
-  r.sums = scratch.take<std::uint16_t>(row);
+  r.sums = scratch.take<std::uint8_t>(row);
   for (int path = 0; path < kTopPaths; ++path) {
     r.above[path] = scratch.take<std::uint8_t>(row);
     r.current[path] = scratch.take<std::uint8_t>(row);
@@ -67,7 +69,7 @@ class Band {
 
   void aggregate_row(int v, bool first_row) {
     v_ = v;
-    std::fill(rows_.sums.begin(), rows_.sums.end(), std::uint16_t{0});
+    std::fill(rows_.sums.begin(), rows_.sums.end(), std::uint8_t{0});
     horizontal_path(p_.range.valid_begin, p_.range.valid_end, 1);
     horizontal_path(p_.range.valid_end - 1, p_.range.valid_begin - 1, -1);
     top_path(0, 0, first_row);
@@ -93,9 +95,9 @@ class Band {
   }
 
   void add_to_sums(int u, std::span<const std::uint8_t> path) {
-    const std::span<std::uint16_t> sums = pixel(rows_.sums, u);
+    const std::span<std::uint8_t> sums = pixel(rows_.sums, u);
     for (std::size_t i = 0; i < sums.size(); ++i)
-      sums[i] = static_cast<std::uint16_t>(sums[i] + path[i]);
+      sums[i] = static_cast<std::uint8_t>(std::min(sums[i] + path[i], kLargestSum));
   }
 
   void horizontal_path(int begin, int end, int step) {
@@ -165,15 +167,9 @@ class CostRows {
   int first_;
 };
 
-bool params_ok(const SgmParams& p, int width) {
-  return search_range_ok(p.range, width) && (p.paths == 3 || p.paths == 5) && 0 <= p.p1 && p.p1 <= p.p2_min &&
-         p.p2_min <= p.p2 && p.p2 < 255 - kMaxSmoothCost && 0 <= p.p2_slope && p.p2_slope <= 255 &&
-         p.warmup_rows >= 0;
-}
-
 }  // namespace
 
-std::size_t sgm_scratch_bytes(int width, int disparities) {
+std::size_t sgm_ref_scratch_bytes(int width, int disparities) {
   ScratchLayout layout;
   lay_out(width, disparities, layout);
   return layout.used();
@@ -183,27 +179,19 @@ Status sgm_ref(ImageView<const std::uint8_t> image, ImageView<const std::uint32_
                ImageView<const std::uint32_t> right, ImageView<const std::uint8_t> textured, Rows descriptor_rows,
                const SgmParams& params, Rows rows, std::span<std::byte> scratch,
                ImageView<std::int16_t> disparity) {
-  if (!same_size(left, image) || !same_size(left, right) || !same_size(left, textured) ||
-      !same_size(left, disparity)) {
-    return Status::size_mismatch;
-  }
-  if (!params_ok(params, left.width) || !rows_inside(rows, left) || !rows_inside(descriptor_rows, left)) {
-    return Status::bad_argument;
-  }
-  if (scratch.size() < sgm_scratch_bytes(left.width, params.range.disparities)) return Status::scratch_too_small;
+  const SgmInput input{image, left, right, textured, descriptor_rows, rows};
+  Status status = check_sgm(input, params, scratch.size(), disparity);
+  if (status != Status::ok) return status;
+  const Rows aggregated = rows_to_aggregate(input, params);
+  fill_not_searched(input, aggregated, disparity);
 
   ScratchLayout layout(scratch.data());
   Band band(params, lay_out(left.width, params.range.disparities, layout), image);
   const CostRows costs(left, right, params.range, descriptor_rows);
-  const int first = std::max(descriptor_rows.begin, rows.begin - params.warmup_rows);
-  const int last = std::min(descriptor_rows.end, rows.end);
-  for (int v = rows.begin; v < rows.end; ++v) {
-    if (v < first || v >= last) std::fill_n(disparity.row(v), disparity.width, std::int16_t{kNotSearched});
-  }
-  for (int v = first; v < last; ++v) {
-    Status status = v == first ? costs.start(v, band.rows()) : costs.next(v, band.rows());
+  for (int v = aggregated.begin; v < aggregated.end; ++v) {
+    status = v == aggregated.begin ? costs.start(v, band.rows()) : costs.next(v, band.rows());
     if (status != Status::ok) return status;
-    band.aggregate_row(v, v == first);
+    band.aggregate_row(v, v == aggregated.begin);
     if (v < rows.begin) continue;
     status = select_row_ref(band.rows().sums, row_span(textured, v), params.range, params.select,
                             band.rows().select, row_span(disparity, v));

@@ -39,7 +39,7 @@ class NaiveSgm {
     for (int k = 0; k < p_.paths; ++k) {
       const std::vector<int> path = along(u, v, directions[k][0], directions[k][1]);
       for (std::size_t i = 0; i < total.size(); ++i)
-        total[i] += path[i];
+        total[i] = std::min(total[i] + path[i], 255);
     }
     return static_cast<int>(std::min_element(total.begin(), total.end()) - total.begin());
   }

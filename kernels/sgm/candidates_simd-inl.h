@@ -1,0 +1,108 @@
+// Vectors of candidates (one byte each, side by side), for every instruction set that a *_simd.cc compiles for.
+#if defined(LAKSHYA_CANDIDATES_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAKSHYA_CANDIDATES_SIMD_INL
+#undef LAKSHYA_CANDIDATES_SIMD_INL
+#else
+#define LAKSHYA_CANDIDATES_SIMD_INL
+#endif
+
+#include <cstddef>
+#include <cstdint>
+
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lakshya {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Never longer than the layout's vectors (kMaxVectorBytes).
+using Bytes = hn::CappedTag<std::uint8_t, 64>;
+using Words = hn::RepartitionToWide<Bytes>;
+using ByteVec = hn::Vec<Bytes>;
+
+// Every candidate's neighbour with the smaller disparity: `here` moved up by one, the last one of `before` first.
+HWY_INLINE ByteVec moved_up([[maybe_unused]] Bytes d, ByteVec here, ByteVec before) {
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+  // Highway 1.0 has no shift across all blocks of 512 bits; the blocks are moved up by one first.
+  const ByteVec blocks{_mm512_alignr_epi64(here.raw, before.raw, 6)};
+  return hn::CombineShiftRightBytes<15>(d, here, blocks);
+#elif HWY_TARGET == HWY_AVX2
+  return hn::CombineShiftRightBytes<15>(d, here, hn::ConcatLowerUpper(d, here, before));
+#elif HWY_ARCH_ARM && HWY_TARGET != HWY_NEON
+  const svbool_t lanes = svwhilelt_b8(std::uint64_t{0}, static_cast<std::uint64_t>(hn::Lanes(d)));
+  return svinsr_n_u8(here, svlastb_u8(lanes, before));
+#else
+  return hn::CombineShiftRightBytes<15>(d, here, before);
+#endif
+}
+
+// Every candidate's neighbour with the larger disparity: `here` moved down by one, the first one of `after` last.
+HWY_INLINE ByteVec moved_down([[maybe_unused]] Bytes d, ByteVec here, ByteVec after) {
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+  const ByteVec blocks{_mm512_alignr_epi64(after.raw, here.raw, 2)};
+  return hn::CombineShiftRightBytes<1>(d, blocks, here);
+#elif HWY_TARGET == HWY_AVX2
+  return hn::CombineShiftRightBytes<1>(d, hn::ConcatLowerUpper(d, after, here), here);
+#elif HWY_ARCH_ARM && HWY_TARGET != HWY_NEON
+  const auto last = hn::Eq(hn::Iota(d, 0), hn::Set(d, static_cast<std::uint8_t>(hn::Lanes(d) - 1)));
+  return hn::IfThenElse(last, hn::Set(d, svlasta_u8(svpfalse_b(), after)), svext_u8(here, here, 1));
+#else
+  return hn::CombineShiftRightBytes<1>(d, after, here);
+#endif
+}
+
+#if HWY_ARCH_X86
+using Block = hn::Vec<hn::Full128<std::uint8_t>>;
+
+HWY_INLINE Block block_minimum(hn::Full128<std::uint8_t>, Block v) {
+  return v;
+}
+template <class D>
+HWY_INLINE Block block_minimum(D, hn::Vec<D> v) {
+  const hn::Half<D> half;
+  return block_minimum(half, hn::Min(hn::LowerHalf(half, v), hn::UpperHalf(half, v)));
+}
+HWY_INLINE Block spread(hn::Full128<std::uint8_t>, Block v) {
+  return v;
+}
+template <class D>
+HWY_INLINE hn::Vec<D> spread(D d, Block v) {
+  const auto half = spread(hn::Half<D>(), v);
+  return hn::Combine(d, half, half);
+}
+#endif
+
+// The smallest byte, in every byte.
+HWY_INLINE ByteVec least(Bytes d, ByteVec v) {
+#if HWY_ARCH_X86
+  const hn::Full128<std::uint8_t> d128;
+  const hn::Full128<std::uint16_t> d16;
+  const Block block = block_minimum(d, v);
+  // The lower byte of each word becomes the smaller of the two, the upper one 0; then one instruction finds the least.
+  const Block pairs = hn::Min(block, hn::BitCast(d128, hn::ShiftRight<8>(hn::BitCast(d16, block))));
+  const Block first{_mm_minpos_epu16(pairs.raw)};
+  return spread(d, hn::TableLookupBytes(first, hn::Zero(d128)));
+#else
+  const Words d16;
+  const auto words = hn::BitCast(d16, v);
+  const auto pairs = hn::Min(hn::And(words, hn::Set(d16, 0xFF)), hn::ShiftRight<8>(words));
+  return hn::Set(d, static_cast<std::uint8_t>(hn::GetLane(hn::MinOfLanes(d16, pairs))));
+#endif
+}
+
+HWY_INLINE std::uint8_t first_byte(ByteVec v) {
+  return hn::GetLane(v);
+}
+
+// One bit per candidate, of up to eight vectors' worth of 64 candidates. bits: a word per 64 candidates.
+template <class Mask>
+HWY_INLINE void store_bits(Bytes d, Mask mask, std::uint8_t* bits) {
+  (void)hn::StoreMaskBits(d, mask, bits);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lakshya
+HWY_AFTER_NAMESPACE();
+
+#endif

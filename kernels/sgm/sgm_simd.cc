@@ -1,0 +1,184 @@
+// The reference's arithmetic on vectors of candidates, row by row: what lies where is in sgm_simd_rows.h.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/sgm/sgm_simd.cc"
+#include "hwy/foreach_target.h"
+// foreach_target.h comes first, whatever the alphabet says.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "hwy/highway.h"
+#include "kernels/base/units.h"
+#include "kernels/sgm/sgm.h"
+#include "kernels/sgm/sgm_cost_simd-inl.h"
+#include "kernels/sgm/sgm_input.h"
+#include "kernels/sgm/sgm_paths_simd-inl.h"
+#include "kernels/sgm/sgm_select_simd-inl.h"
+#include "kernels/sgm/sgm_simd_rows.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lakshya {
+namespace HWY_NAMESPACE {
+
+// kVectors: vectors per pixel, 0: any number.
+template <std::size_t kVectors>
+class SgmBand {
+ public:
+  SgmBand(const SgmInput& input, const SgmParams& params, const SgmSimdRows& rows, std::size_t pitch)
+      : in_(input),
+        p_(params),
+        rows_(rows),
+        pitch_(pitch),
+        width_(input.left.width),
+        valid_(reversed_range(params.range, input.left.width, static_cast<int>(pitch))),
+        hamming_(rows_, width_, params.range.disparities, valid_),
+        path_(p_, rows_, hamming_, pitch) {
+    const auto clear = [](const auto& span) { std::fill(span.begin(), span.end(), 0); };
+    clear(rows_.right_codes);
+    clear(rows_.right_valid);
+    for (const auto& plane : rows_.right_planes)
+      clear(plane);
+    std::fill(rows_.right_valid.begin() + valid_.begin, rows_.right_valid.begin() + valid_.end, 255);
+    // A pixel of zeros is where a path starts: L = C. So are the margins, and the row above the first.
+    clear(rows_.sideways);
+    for (int path = 0; path < kMaxTopPaths; ++path) {
+      clear(rows_.above[path]);
+      clear(rows_.current[path]);
+      clear(rows_.above_least[path]);
+      clear(rows_.current_least[path]);
+      clear(rows_.top_penalty[path]);
+    }
+    clear(rows_.side_penalty);
+    clear(rows_.sums);
+    clear(rows_.right_winner);
+    const auto disparities = static_cast<std::size_t>(params.range.disparities);
+    std::fill(rows_.beyond.begin(), rows_.beyond.end(), 255);
+    std::fill_n(rows_.beyond.begin(), disparities, 0);
+    std::fill(rows_.outside.begin(), rows_.outside.end(), 255);
+    std::fill_n(rows_.outside.begin() + kMaxVectorBytes, disparities, 0);
+    unique_limits(params.select.uniqueness_percent, limits_);
+  }
+
+  void run(Rows span, ImageView<std::int16_t> disparity) {
+    const Rows d = in_.descriptor_rows;
+    load_distances(std::max(span.begin - 1, d.begin), rows_.hamming[0]);
+    load_distances(span.begin, rows_.hamming[1]);
+    for (int v = span.begin; v < span.end; ++v) {
+      penalties(v, span.begin);
+      const bool last_row = v + 1 == d.end;
+      if (last_row) {
+        path_.template costs_and_leftward_path<false>(rows_.hamming[0].data(), rows_.hamming[1].data(),
+                                                      rows_.hamming[1].data());
+      } else {
+        load_codes(v + 1);
+        path_.template costs_and_leftward_path<true>(rows_.hamming[0].data(), rows_.hamming[1].data(),
+                                                     rows_.hamming[2].data());
+      }
+      std::rotate(rows_.hamming, rows_.hamming + 1, rows_.hamming + 3);
+      sums_and_disparities(v, disparity.row(v), v >= in_.rows.begin);
+    }
+  }
+
+ private:
+  void load_codes(int v) const {
+    left_planes(in_.left.row(v), width_, rows_);
+    right_planes(in_.right.row(v), width_, p_.range.first, valid_, rows_);
+  }
+  void load_distances(int v, std::span<std::uint8_t> out) const {
+    load_codes(v);
+    path_.distances(out.data());
+  }
+
+  // P2 of row v's steps.
+  void penalties(int v, int first_row) const {
+    const int begin = p_.range.valid_begin;
+    const int end = p_.range.valid_end;
+    const std::uint8_t* here = in_.image.row(v);
+    std::uint8_t* side = rows_.side_penalty.data();
+    jump_penalties(here + begin + 1, here + begin, end - begin - 1, p_, side + begin + 1);
+    if (v == first_row) return;
+    const std::uint8_t* above = in_.image.row(v - 1);
+    jump_penalties(here + begin, above + begin, end - begin, p_, rows_.top_penalty[0].data() + begin);
+    if (p_.paths != 5) return;
+    jump_penalties(here + begin + 1, above + begin, end - begin - 1, p_, rows_.top_penalty[1].data() + begin + 1);
+    jump_penalties(here + begin, above + begin + 1, end - begin - 1, p_, rows_.top_penalty[2].data() + begin);
+  }
+
+  void sums_and_disparities(int v, std::int16_t* disparity, bool wanted) {
+    const std::uint8_t* textured = in_.textured.row(v);
+    std::int16_t* out = wanted ? disparity : nullptr;
+    if (p_.paths == 5) {
+      path_.template sums_and_winners<true>(textured, limits_, out);
+      for (int path = 1; path < kMaxTopPaths; ++path) {
+        std::swap(rows_.above[path], rows_.current[path]);
+        std::swap(rows_.above_least[path], rows_.current_least[path]);
+      }
+    } else {
+      path_.template sums_and_winners<false>(textured, limits_, out);
+    }
+    if (!wanted) return;
+    std::fill(disparity, disparity + p_.range.valid_begin, std::int16_t{kNotSearched});
+    std::fill(disparity + p_.range.valid_end, disparity + width_, std::int16_t{kNotSearched});
+    if (p_.select.left_right_max < 0) return;
+    right_winners(p_, width_, pitch_, valid_, rows_);
+    left_right_check(p_, width_, rows_, disparity);
+  }
+
+  const SgmInput& in_;
+  const SgmParams& p_;
+  SgmSimdRows rows_;
+  std::size_t pitch_;
+  int width_;
+  ReversedRange valid_;
+  HammingRow hamming_;
+  PathRow<kVectors> path_;
+  std::uint16_t limits_[256];
+};
+
+void sgm_band(const SgmInput& input, const SgmParams& params, const SgmSimdRows& rows, Rows span,
+              ImageView<std::int16_t> disparity) {
+  const std::size_t lanes = hn::Lanes(Bytes());
+  const auto disparities = static_cast<std::size_t>(params.range.disparities);
+  const std::size_t vectors = (disparities + lanes - 1) / lanes;
+  const std::size_t pitch = vectors * lanes;
+  if (vectors == 1) return SgmBand<1>(input, params, rows, pitch).run(span, disparity);
+  if (vectors == 2) return SgmBand<2>(input, params, rows, pitch).run(span, disparity);
+  if (vectors == 4) return SgmBand<4>(input, params, rows, pitch).run(span, disparity);
+  SgmBand<0>(input, params, rows, pitch).run(span, disparity);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lakshya
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lakshya {
+
+HWY_EXPORT(sgm_band);
+
+std::size_t sgm_simd_scratch_bytes(int width, int disparities) {
+  ScratchLayout layout;
+  lay_out_sgm_simd(width, disparities, layout);
+  return layout.used();
+}
+
+Status sgm_simd(ImageView<const std::uint8_t> image, ImageView<const std::uint32_t> left,
+                ImageView<const std::uint32_t> right, ImageView<const std::uint8_t> textured, Rows descriptor_rows,
+                const SgmParams& params, Rows rows, std::span<std::byte> scratch,
+                ImageView<std::int16_t> disparity) {
+  const SgmInput input{image, left, right, textured, descriptor_rows, rows};
+  const Status status = check_sgm(input, params, scratch.size(), disparity);
+  if (status != Status::ok) return status;
+  const bool some_columns = params.range.valid_begin < params.range.valid_end;
+  const Rows aggregated = some_columns ? rows_to_aggregate(input, params) : Rows{};
+  fill_not_searched(input, aggregated, disparity);
+  if (aggregated.begin >= aggregated.end) return Status::ok;
+  ScratchLayout layout(scratch.data());
+  const SgmSimdRows kept = lay_out_sgm_simd(left.width, params.range.disparities, layout);
+  HWY_DYNAMIC_DISPATCH(sgm_band)(input, params, kept, aggregated, disparity);
+  return Status::ok;
+}
+
+}  // namespace lakshya
+#endif

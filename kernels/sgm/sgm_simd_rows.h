@@ -1,0 +1,77 @@
+// The rows that sgm_simd keeps of one band, laid out in the caller's scratch.
+//
+// Candidates lie side by side, `pitch` bytes per pixel: the disparities, and up to the next whole vector the value 255,
+// which no minimum takes. The right image's codes lie in reverse, so that the candidates of pixel u are the bytes
+// from y = width - 1 - u on (of right pixel width - 1 - first - y), one load per vector.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "kernels/base/scratch.h"
+
+namespace lakshya {
+
+inline constexpr std::size_t kMaxVectorBytes = 64;
+inline constexpr int kMaxCodePlanes = 8;
+inline constexpr int kMaxTopPaths = 3;
+
+struct SgmSimdRows {
+  std::span<std::uint32_t> left_planes[kMaxCodePlanes];  // one part of the code, in all four bytes
+  std::span<std::uint8_t> right_planes[kMaxCodePlanes];  // one part of the code, reversed
+  std::span<std::uint32_t> right_codes;                  // reversed
+  std::span<std::uint8_t> right_valid;                   // 255 where that right pixel has a descriptor, reversed
+  std::span<std::uint8_t> hamming[3];                    // of the row above, this one and the one below
+  std::span<std::uint8_t> columns;                       // three rows of distances added up, of four pixels
+  std::span<std::uint8_t> cost;                          // C of the row
+  std::span<std::uint8_t> sideways;                   // L of the path from the right, then of the one from the left
+  std::span<std::uint8_t> above[kMaxTopPaths];        // L of the row above; the straight path's rows are one
+  std::span<std::uint8_t> current[kMaxTopPaths];      // L of this row
+  std::span<std::uint8_t> above_least[kMaxTopPaths];  // their least per pixel
+  std::span<std::uint8_t> current_least[kMaxTopPaths];
+  std::span<std::uint8_t> sums;                       // S of the row
+  std::span<std::uint8_t> beyond;                     // 0 for a disparity, 255 beyond the last one
+  std::span<std::uint8_t> outside;                    // 255 before the candidates and after them, 0 for them
+  std::span<std::uint8_t> side_penalty;               // P2 between pixels u - 1 and u
+  std::span<std::uint8_t> top_penalty[kMaxTopPaths];  // P2 between pixel u and the path's pixel above
+  std::span<std::int16_t> winner;                     // candidate of a left pixel, negative where it is decided
+  std::span<std::int16_t> right_winner;               // left pixel that a right one matches best, reversed
+};
+
+inline SgmSimdRows lay_out_sgm_simd(int width, int disparities, ScratchLayout& scratch) {
+  constexpr std::size_t kMargin = 2 * kMaxVectorBytes;  // vectors reach over the ends
+  const auto columns = static_cast<std::size_t>(width);
+  const std::size_t pitch =
+      (static_cast<std::size_t>(disparities) + kMaxVectorBytes - 1) / kMaxVectorBytes * kMaxVectorBytes;
+  const std::size_t row = (columns + 2) * pitch + kMargin;  // a pixel of margin on both sides
+  const std::size_t reversed = columns + pitch + kMargin;
+  SgmSimdRows r;
+  for (auto& plane : r.left_planes)
+    plane = scratch.take<std::uint32_t>(columns + kMargin);
+  for (auto& plane : r.right_planes)
+    plane = scratch.take<std::uint8_t>(reversed);
+  r.right_codes = scratch.take<std::uint32_t>(reversed);
+  r.right_valid = scratch.take<std::uint8_t>(reversed);
+  for (auto& distances : r.hamming)
+    distances = scratch.take<std::uint8_t>(row);
+  r.columns = scratch.take<std::uint8_t>(4 * pitch);
+  r.cost = scratch.take<std::uint8_t>(row);
+  r.sideways = scratch.take<std::uint8_t>(row);
+  for (int path = 0; path < kMaxTopPaths; ++path) {
+    r.above[path] = scratch.take<std::uint8_t>(row);
+    r.current[path] = path == 0 ? r.above[0] : scratch.take<std::uint8_t>(row);
+    r.above_least[path] = scratch.take<std::uint8_t>(columns + 2);
+    r.current_least[path] = path == 0 ? r.above_least[0] : scratch.take<std::uint8_t>(columns + 2);
+    r.top_penalty[path] = scratch.take<std::uint8_t>(columns);
+  }
+  r.sums = scratch.take<std::uint8_t>(row);
+  r.beyond = scratch.take<std::uint8_t>(pitch);
+  r.outside = scratch.take<std::uint8_t>(pitch + kMargin);
+  r.side_penalty = scratch.take<std::uint8_t>(columns + 1);
+  r.winner = scratch.take<std::int16_t>(columns);
+  r.right_winner = scratch.take<std::int16_t>(reversed);
+  return r;
+}
+
+}  // namespace lakshya
