@@ -127,8 +127,8 @@ Status Pipeline::rectify(ImageView<const std::uint8_t> left, ImageView<const std
   for (int i = 0; i < 2 * bands_; ++i) {
     const bool is_left = i < bands_;
     const RectifyMaps& maps = is_left ? maps_left_ : maps_right_;
-    const Status status = kernels_->rectify(is_left ? left : right, maps.x.view(), maps.y.view(),
-                                            band_rows(i % bands_), is_left ? buffers_->left : buffers_->right);
+    const Status status = kernels_->rectify(is_left ? left : right, maps.view(), band_rows(i % bands_),
+                                            is_left ? buffers_->left : buffers_->right);
     worst = std::max(worst, static_cast<int>(status));
   }
   result.left = buffers_->left;

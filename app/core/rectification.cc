@@ -239,12 +239,16 @@ RectifyMaps make_rectify_maps(const CameraModel& camera, const Matrix3d& R, cons
                               int height) {
   require_size("rectify maps", width, height);
   const Matrix3d R_inverse = R.inverse();
-  RectifyMaps maps{Image<std::int32_t>(width, height), Image<std::int32_t>(width, height)};
+  RectifyMaps maps{Image<std::int16_t>(width, height), Image<std::int16_t>(width, height),
+                   Image<std::uint16_t>(width, height)};
   for (int v = 0; v < height; ++v) {
     for (int u = 0; u < width; ++u) {
       const Vector2d raw = raw_pixel(camera, R_inverse, P, u, v);
-      maps.x.view().at(u, v) = to_map(raw.x());
-      maps.y.view().at(u, v) = to_map(raw.y());
+      const std::int32_t x = to_map(raw.x());
+      const std::int32_t y = to_map(raw.y());
+      maps.x.view().at(u, v) = static_cast<std::int16_t>(x >> kRectifyFractionBits);
+      maps.y.view().at(u, v) = static_cast<std::int16_t>(y >> kRectifyFractionBits);
+      maps.fraction.view().at(u, v) = rectify_fraction(x & (kRectifyMapScale - 1), y & (kRectifyMapScale - 1));
     }
   }
   return maps;

@@ -20,10 +20,13 @@ inline constexpr int kRectifyMapScale = 1 << kRectifyFractionBits;
 inline constexpr int kRectifyMapMinPx = -32768;
 inline constexpr int kRectifyMapMaxPx = 32767;
 
-// Where each rectified pixel lies in the raw image, clamped to kRectifyMapMinPx..kRectifyMapMaxPx.
+// Where each rectified pixel lies in the raw image, clamped to kRectifyMapMinPx..kRectifyMapMaxPx: the memory of a
+// RectifyMap.
 struct RectifyMaps {
-  Image<std::int32_t> x;
-  Image<std::int32_t> y;
+  Image<std::int16_t> x;
+  Image<std::int16_t> y;
+  Image<std::uint16_t> fraction;
+  RectifyMap view() const { return {x.view(), y.view(), fraction.view()}; }
 };
 
 // False when the raw images are rectified already: the calibration says so, or both cameras have no distortion,

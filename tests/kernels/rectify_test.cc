@@ -11,15 +11,26 @@ namespace {
 
 using test::PaddedImage;
 
-constexpr std::int32_t q7(double px) {
-  return static_cast<std::int32_t>(px * 128);
-}
+// A map whose positions are given in 1/128 px.
+struct PaddedMap {
+  PaddedMap(int width, int height) : x(width, height), y(width, height), fraction(width, height) {}
+
+  void set(int u, int v, int x_q7, int y_q7) {
+    x.view().at(u, v) = static_cast<std::int16_t>(x_q7 >> kRectifyFractionBits);
+    y.view().at(u, v) = static_cast<std::int16_t>(y_q7 >> kRectifyFractionBits);
+    fraction.view().at(u, v) = rectify_fraction(x_q7 & 127, y_q7 & 127);
+  }
+  RectifyMap view() const { return {x.view(), y.view(), fraction.view()}; }
+
+  PaddedImage<std::int16_t> x, y;
+  PaddedImage<std::uint16_t> fraction;
+};
 
 std::uint8_t sample(const PaddedImage<std::uint8_t>& raw, double x, double y) {
-  const PaddedImage<std::int32_t> map_x(1, 1, {q7(x)});
-  const PaddedImage<std::int32_t> map_y(1, 1, {q7(y)});
+  PaddedMap map(1, 1);
+  map.set(0, 0, static_cast<int>(x * 128), static_cast<int>(y * 128));
   PaddedImage<std::uint8_t> out(1, 1);
-  EXPECT_EQ(rectify_ref(raw.view(), map_x.view(), map_y.view(), {0, 1}, out.view()), Status::ok);
+  EXPECT_EQ(rectify_ref(raw.view(), map.view(), {0, 1}, out.view()), Status::ok);
   return out.view().at(0, 0);
 }
 
@@ -71,11 +82,24 @@ TEST(Rectify, MatchesBilinearInterpolationInDoubles) {
   }
 }
 
+TEST(Rectify, FractionsShareSixteenBits) {
+  for (int x = 0; x < 128; ++x) {
+    for (int y = 0; y < 128; ++y) {
+      ASSERT_EQ(rectify_fraction_x(rectify_fraction(x, y)), x);
+      ASSERT_EQ(rectify_fraction_y(rectify_fraction(x, y)), y);
+    }
+  }
+}
+
 TEST(Rectify, WritesOnlyItsRowsAndNoPadding) {
   const PaddedImage<std::uint8_t> raw(2, 2, {9, 9, 9, 9});
-  const PaddedImage<std::int32_t> map(3, 4, 5, 0);
+  PaddedMap map(3, 4);
+  for (int v = 0; v < 4; ++v) {
+    for (int u = 0; u < 3; ++u)
+      map.set(u, v, 0, 0);
+  }
   PaddedImage<std::uint8_t> out(3, 4);
-  ASSERT_EQ(rectify_ref(raw.view(), map.view(), map.view(), {1, 3}, out.view()), Status::ok);
+  ASSERT_EQ(rectify_ref(raw.view(), map.view(), {1, 3}, out.view()), Status::ok);
   for (int u = 0; u < 3; ++u) {
     EXPECT_EQ(out.view().at(u, 0), 77);
     EXPECT_EQ(out.view().at(u, 1), 9);
@@ -87,14 +111,17 @@ TEST(Rectify, WritesOnlyItsRowsAndNoPadding) {
 
 TEST(Rectify, RefusesWrongShapes) {
   PaddedImage<std::uint8_t> raw(2, 2);
-  PaddedImage<std::int32_t> map(3, 3);
-  PaddedImage<std::int32_t> other(3, 2);
+  PaddedMap map(3, 3);
+  PaddedMap other(3, 2);
   PaddedImage<std::uint8_t> out(3, 3);
-  EXPECT_EQ(rectify_ref(raw.view(), map.view(), other.view(), {0, 1}, out.view()), Status::size_mismatch);
-  EXPECT_EQ(rectify_ref(raw.view(), other.view(), other.view(), {0, 1}, out.view()), Status::size_mismatch);
-  EXPECT_EQ(rectify_ref(raw.view(), map.view(), map.view(), {0, 4}, out.view()), Status::bad_argument);
-  EXPECT_EQ(rectify_ref(raw.view(), map.view(), map.view(), {-1, 1}, out.view()), Status::bad_argument);
-  EXPECT_EQ(rectify_ref({}, {}, {}, {0, 0}, {}), Status::ok);
+  const auto run = [&](const RectifyMap& m, Rows rows) { return rectify_ref(raw.view(), m, rows, out.view()); };
+  EXPECT_EQ(run({other.x.view(), map.y.view(), map.fraction.view()}, {0, 1}), Status::size_mismatch);
+  EXPECT_EQ(run({map.x.view(), other.y.view(), map.fraction.view()}, {0, 1}), Status::size_mismatch);
+  EXPECT_EQ(run({map.x.view(), map.y.view(), other.fraction.view()}, {0, 1}), Status::size_mismatch);
+  EXPECT_EQ(run(other.view(), {0, 1}), Status::size_mismatch);
+  EXPECT_EQ(run(map.view(), {0, 4}), Status::bad_argument);
+  EXPECT_EQ(run(map.view(), {-1, 1}), Status::bad_argument);
+  EXPECT_EQ(rectify_ref({}, {}, {0, 0}, {}), Status::ok);
 }
 
 }  // namespace
