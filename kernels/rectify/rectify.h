@@ -41,5 +41,11 @@ constexpr int rectify_fraction_y(std::uint16_t fraction) {
 // size_mismatch, bad_argument (rows outside).
 Status rectify_ref(ImageView<const std::uint8_t> raw, const RectifyMap& map, Rows rows,
                    ImageView<std::uint8_t> out);
+Status rectify_simd(ImageView<const std::uint8_t> raw, const RectifyMap& map, Rows rows,
+                    ImageView<std::uint8_t> out);
+
+// Columns [begin, end) of row v by the reference: what the vectors cannot do.
+void rectify_columns_ref(const ImageView<const std::uint8_t>& raw, const RectifyMap& map, int v, int begin, int end,
+                         const ImageView<std::uint8_t>& out);
 
 }  // namespace lakshya

@@ -21,16 +21,20 @@ std::uint8_t bilinear(const ImageView<const std::uint8_t>& raw, int x, int y, st
 
 }  // namespace
 
+void rectify_columns_ref(const ImageView<const std::uint8_t>& raw, const RectifyMap& map, int v, int begin, int end,
+                         const ImageView<std::uint8_t>& out) {
+  for (int u = begin; u < end; ++u)
+    out.at(u, v) = bilinear(raw, map.x.at(u, v), map.y.at(u, v), map.fraction.at(u, v));
+}
+
 Status rectify_ref(ImageView<const std::uint8_t> raw, const RectifyMap& map, Rows rows,
                    ImageView<std::uint8_t> out) {
   if (!same_size(map.x, out) || !same_size(map.y, out) || !same_size(map.fraction, out)) {
     return Status::size_mismatch;
   }
   if (!rows_inside(rows, out)) return Status::bad_argument;
-  for (int v = rows.begin; v < rows.end; ++v) {
-    for (int u = 0; u < out.width; ++u)
-      out.at(u, v) = bilinear(raw, map.x.at(u, v), map.y.at(u, v), map.fraction.at(u, v));
-  }
+  for (int v = rows.begin; v < rows.end; ++v)
+    rectify_columns_ref(raw, map, v, 0, out.width, out);
   return Status::ok;
 }
 

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
+#include "tests/support/each_isa.h"
 #include "tests/support/test_image.h"
 
 namespace lakshya {
@@ -122,6 +124,117 @@ TEST(Rectify, RefusesWrongShapes) {
   EXPECT_EQ(run(map.view(), {0, 4}), Status::bad_argument);
   EXPECT_EQ(run(map.view(), {-1, 1}), Status::bad_argument);
   EXPECT_EQ(rectify_ref({}, {}, {0, 0}, {}), Status::ok);
+}
+
+// `raw` and `map`: what one frame has. Padding 0: a read behind the last raw row is outside the memory.
+void expect_simd_equal(const PaddedImage<std::uint8_t>& raw, const PaddedMap& map, const std::string& what) {
+  const int width = map.view().x.width;
+  const int height = map.view().x.height;
+  PaddedImage<std::uint8_t> expected(width, height);
+  ASSERT_EQ(rectify_ref(raw.view(), map.view(), {0, height}, expected.view()), Status::ok);
+  PaddedImage<std::uint8_t> out(width, height);
+  for (const Rows rows : {Rows{0, height / 2}, Rows{height / 2, height}})
+    ASSERT_EQ(rectify_simd(raw.view(), map.view(), rows, out.view()), Status::ok);
+  ASSERT_TRUE(test::equal_images(out.view(), expected.view())) << what;
+  EXPECT_TRUE(out.canaries_alive()) << what;
+}
+
+// A map that turns, stretches and shifts: dx_u is how far x moves with u, in 1/128 px.
+struct Affine {
+  int x, y;
+  int dx_u, dx_v;
+  int dy_u, dy_v;
+};
+
+PaddedMap affine_map(int width, int height, const Affine& a, std::mt19937& random, int noise_q7) {
+  std::uniform_int_distribution<int> noise(-noise_q7, noise_q7);
+  PaddedMap map(width, height);
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      const int x = a.x * 128 + a.dx_u * u + a.dx_v * v + noise(random);
+      const int y = a.y * 128 + a.dy_u * u + a.dy_v * v + noise(random);
+      map.set(u, v, x, y);
+    }
+  }
+  return map;
+}
+
+TEST(RectifySimd, EqualsTheReferenceOnLensesOfAllKinds) {
+  std::mt19937 random(5);
+  const Affine lenses[] = {
+      {0, 0, 128, 0, 0, 128},        // identity
+      {3, 2, 117, 4, -3, 121},       // a usual one
+      {-7, -5, 140, 0, 0, 133},      // borders outside on all sides
+      {70, 30, -128, 0, 0, -128},    // upside down
+      {0, 10, 128, 5, 18, 128},      // two rows within eight pixels
+      {0, 0, 110, -60, 60, 110},     // turned by 30 degrees
+      {60, 0, 0, -128, 128, 0},      // turned by 90 degrees
+      {0, 0, 250, 0, 0, 250},        // half the size
+      {0, 0, 300, 0, 130, 300},      // more than the windows hold
+      {-200, -100, 600, 0, 0, 600},  // far outside
+      {-32768, 32767, 0, 0, 0, 0},   // nowhere
+      {32767, 32767, 0, 0, 0, 0},    //
+      {16, 16, 0, 0, 0, 0},          // one place
+  };
+  test::for_each_isa([&](const char* isa) {
+    for (const int width : test::awkward_widths()) {
+      for (const Affine& lens : lenses) {
+        for (const int noise : {0, 90}) {
+          PaddedImage<std::uint8_t> raw(80, 40, 0);
+          test::fill_random(raw.view(), random, 0, 255);
+          const PaddedMap map = affine_map(width, 7, lens, random, std::abs(lens.x) < 32767 ? noise : 0);
+          ASSERT_NO_FATAL_FAILURE(expect_simd_equal(
+              raw, map, std::string(isa) + " width " + std::to_string(width) + " x " + std::to_string(lens.x)));
+        }
+      }
+    }
+  });
+}
+
+TEST(RectifySimd, EqualsTheReferenceOnRawImagesOfAnySize) {
+  std::mt19937 random(6);
+  test::for_each_isa([&](const char* isa) {
+    for (const int width : {0, 1, 15, 16, 17, 40}) {
+      for (const int height : {0, 1, 2, 3, 8, 9, 10, 33}) {
+        PaddedImage<std::uint8_t> raw(width, height, 0);
+        test::fill_random(raw.view(), random, 0, 255);
+        for (const int slope : {0, 40}) {
+          const PaddedMap map = affine_map(75, 45, {-6, -6, 100, 0, slope, 128}, random, 30);
+          ASSERT_NO_FATAL_FAILURE(expect_simd_equal(
+              raw, map, std::string(isa) + " raw " + std::to_string(width) + "x" + std::to_string(height)));
+        }
+      }
+    }
+  });
+}
+
+TEST(RectifySimd, EqualsTheReferenceAtEveryFraction) {
+  PaddedImage<std::uint8_t> raw(160, 20, 0);
+  std::mt19937 random(7);
+  test::for_each_isa([&](const char* isa) {
+    for (const int low : {0, 255}) {
+      for (int v = 0; v < 20; ++v) {
+        for (int u = 0; u < 160; ++u)
+          raw.view().at(u, v) = static_cast<std::uint8_t>(random() % 2 == 0 ? low : 255);
+      }
+      PaddedMap map(128, 128);
+      for (int v = 0; v < 128; ++v) {
+        for (int u = 0; u < 128; ++u)
+          map.set(u, v, u * 129, (v / 8) * 128 + v);
+      }
+      ASSERT_NO_FATAL_FAILURE(expect_simd_equal(raw, map, isa));
+    }
+  });
+}
+
+TEST(RectifySimd, RefusesWrongShapes) {
+  PaddedImage<std::uint8_t> raw(2, 2);
+  PaddedMap map(3, 3);
+  PaddedMap other(3, 2);
+  PaddedImage<std::uint8_t> out(3, 3);
+  EXPECT_EQ(rectify_simd(raw.view(), other.view(), {0, 1}, out.view()), Status::size_mismatch);
+  EXPECT_EQ(rectify_simd(raw.view(), map.view(), {0, 4}, out.view()), Status::bad_argument);
+  EXPECT_EQ(rectify_simd({}, {}, {0, 0}, {}), Status::ok);
 }
 
 }  // namespace
