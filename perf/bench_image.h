@@ -7,8 +7,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <random>
+#include <string>
 
 #include "app/core/image.h"
+#include "kernels/base/isa.h"
 #include "kernels/base/status.h"
 
 namespace lakshya::bench {
@@ -40,6 +42,19 @@ inline void require_ok(Status status) {
 inline void report_per(benchmark::State& state, const char* name, double items) {
   state.counters[name] =
       benchmark::Counter(items, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+// One row for each instruction set that this machine has: NAME/avx2.
+inline bool register_each_isa(const std::string& name, void (*run)(benchmark::State&)) {
+  for (const char* isa : available_isas()) {
+    const auto on_isa = [isa, run](benchmark::State& state) {
+      require_ok(use_isa(isa));
+      run(state);
+      require_ok(use_isa("best"));
+    };
+    benchmark::RegisterBenchmark((name + "/" + isa).c_str(), on_isa)->Unit(benchmark::kMillisecond);
+  }
+  return true;
 }
 
 }  // namespace lakshya::bench
