@@ -55,7 +55,7 @@ inline constexpr KernelTable kReferenceKernels = {
 
 // On the instruction set of kernels/base/isa.h; bit for bit what the reference gives.
 inline constexpr KernelTable kSimdKernels = {
-    .rectify = rectify_ref,
+    .rectify = rectify_simd,
     .census = census_simd,
     .texture = texture_ref,
     .edge_sobel = edge_sobel_ref,
