@@ -19,5 +19,7 @@ inline constexpr int kTextureRadiusV = 3;
 // Outside the image its border is repeated. image, textured: same size; textured is 1 or 0.
 // threshold in grey levels, >= 0. `textured` must not overlap `image`. size_mismatch, bad_argument.
 Status texture_ref(ImageView<const std::uint8_t> image, int threshold, Rows rows, ImageView<std::uint8_t> textured);
+Status texture_simd(ImageView<const std::uint8_t> image, int threshold, Rows rows,
+                    ImageView<std::uint8_t> textured);
 
 }  // namespace lakshya

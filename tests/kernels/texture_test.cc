@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
+#include "tests/support/each_isa.h"
 #include "tests/support/test_image.h"
 
 namespace lakshya {
@@ -80,6 +83,61 @@ TEST(Texture, RefusesWrongArguments) {
   EXPECT_EQ(texture_ref(image.view(), 1, {0, 7}, wrong.view()), Status::size_mismatch);
   EXPECT_EQ(texture_ref(image.view(), -1, {0, 7}, flags.view()), Status::bad_argument);
   EXPECT_EQ(texture_ref(image.view(), 1, {5, 8}, flags.view()), Status::bad_argument);
+}
+
+void expect_simd_equal(const PaddedImage<std::uint8_t>& image, int threshold, const std::string& what) {
+  const int width = image.view().width;
+  const int height = image.view().height;
+  PaddedImage<std::uint8_t> expected(width, height);
+  ASSERT_EQ(texture_ref(image.view(), threshold, {0, height}, expected.view()), Status::ok);
+  PaddedImage<std::uint8_t> flags(width, height);
+  for (const Rows rows : {Rows{0, height / 3}, Rows{height / 3, height}})
+    ASSERT_EQ(texture_simd(image.view(), threshold, rows, flags.view()), Status::ok);
+  ASSERT_TRUE(test::equal_images(flags.view(), expected.view())) << what << " threshold " << threshold;
+  EXPECT_TRUE(flags.canaries_alive()) << what;
+}
+
+// Thresholds around the mean of the sums, where a wrong sum shows.
+TEST(TextureSimd, EqualsTheReference) {
+  std::mt19937 random(10);
+  test::for_each_isa([&](const char* isa) {
+    std::vector<int> widths = test::awkward_widths();
+    widths.insert(widths.end(), {2, 3, 1023, 1024, 1025, 2100});  // strips of 1024 columns
+    for (const int width : widths) {
+      for (const int height : {0, 1, 3, 7, 8, 15}) {
+        PaddedImage<std::uint8_t> image(width, height, 0);
+        test::fill_random(image.view(), random, 0, 12);
+        const std::string what = std::string(isa) + " " + std::to_string(width) + "x" + std::to_string(height);
+        for (const int threshold : {0, 230, 252})
+          ASSERT_NO_FATAL_FAILURE(expect_simd_equal(image, threshold, what));
+      }
+    }
+  });
+}
+
+// The largest sum there is: 63 times 255.
+TEST(TextureSimd, NoSumIsTooLarge) {
+  PaddedImage<std::uint8_t> image(150, 9, 0);
+  for (int v = 0; v < 9; ++v) {
+    for (int u = 0; u < 150; ++u)
+      image.view().at(u, v) = u / 2 % 2 == 0 ? 0 : 255;
+  }
+  test::for_each_isa([&](const char* isa) {
+    for (const int threshold : {16064, 16065, 16066, 0x7fff, 0x8000, 0x10000, 0x7fffffff})
+      ASSERT_NO_FATAL_FAILURE(expect_simd_equal(image, threshold, isa));
+    PaddedImage<std::uint8_t> flags(150, 9);
+    ASSERT_EQ(texture_simd(image.view(), 16065, {0, 9}, flags.view()), Status::ok);
+    EXPECT_EQ(flags.view().at(75, 4), 1);
+  });
+}
+
+TEST(TextureSimd, RefusesWrongArguments) {
+  PaddedImage<std::uint8_t> image(11, 7);
+  PaddedImage<std::uint8_t> flags(11, 7);
+  PaddedImage<std::uint8_t> wrong(10, 7);
+  EXPECT_EQ(texture_simd(image.view(), 1, {0, 7}, wrong.view()), Status::size_mismatch);
+  EXPECT_EQ(texture_simd(image.view(), -1, {0, 7}, flags.view()), Status::bad_argument);
+  EXPECT_EQ(texture_simd(image.view(), 1, {5, 8}, flags.view()), Status::bad_argument);
 }
 
 }  // namespace
