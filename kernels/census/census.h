@@ -26,8 +26,4 @@ inline constexpr int kCensusBits = 31;
 Status census_ref(ImageView<const std::uint8_t> image, Rows rows, ImageView<std::uint32_t> codes);
 Status census_simd(ImageView<const std::uint8_t> image, Rows rows, ImageView<std::uint32_t> codes);
 
-// Columns [begin, end) of row v by the reference, everything inside: what a vector does not reach.
-void census_columns_ref(ImageView<const std::uint8_t> image, int v, int begin, int end,
-                        ImageView<std::uint32_t> codes);
-
 }  // namespace lakshya

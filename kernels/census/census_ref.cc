@@ -19,22 +19,18 @@ std::uint32_t census_code(int u, int v, const Pixel& pixel) {
 
 }  // namespace
 
-void census_columns_ref(ImageView<const std::uint8_t> image, int v, int begin, int end,
-                        ImageView<std::uint32_t> codes) {
-  const auto inside_pixel = [&](int u, int y) { return image.at(u, y); };
-  const auto repeated_pixel = [&](int u, int y) { return at_repeated(image, u, y); };
-  const bool row_inside = v >= kCensusRadiusV && v < image.height - kCensusRadiusV;
-  for (int u = begin; u < end; ++u) {
-    const bool inside = row_inside && u >= kCensusRadiusU && u < image.width - kCensusRadiusU;
-    codes.at(u, v) = inside ? census_code(u, v, inside_pixel) : census_code(u, v, repeated_pixel);
-  }
-}
-
 Status census_ref(ImageView<const std::uint8_t> image, Rows rows, ImageView<std::uint32_t> codes) {
   if (!same_size(image, codes)) return Status::size_mismatch;
   if (!rows_inside(rows, image)) return Status::bad_argument;
-  for (int v = rows.begin; v < rows.end; ++v)
-    census_columns_ref(image, v, 0, image.width, codes);
+  const auto inside_pixel = [&](int u, int v) { return image.at(u, v); };
+  const auto repeated_pixel = [&](int u, int v) { return at_repeated(image, u, v); };
+  for (int v = rows.begin; v < rows.end; ++v) {
+    const bool row_inside = v >= kCensusRadiusV && v < image.height - kCensusRadiusV;
+    for (int u = 0; u < image.width; ++u) {
+      const bool inside = row_inside && u >= kCensusRadiusU && u < image.width - kCensusRadiusU;
+      codes.at(u, v) = inside ? census_code(u, v, inside_pixel) : census_code(u, v, repeated_pixel);
+    }
+  }
   return Status::ok;
 }
 
