@@ -109,7 +109,7 @@ Matcher::Descriptors Matcher::take_descriptors(int width, Arena& arena) const {
   if (method_ == Method::sad) {
     d.edges = arena.take_image<std::uint8_t>(width, height_);
   } else {
-    d.codes = arena.take_image<std::uint32_t>(width, height_);
+    d.codes = arena.take_image<CensusCode>(width, height_);
   }
   return d;
 }

@@ -37,7 +37,7 @@ class Matcher {
 
   // Codes or edges of one image; the other stays empty.
   struct Descriptors {
-    ImageView<std::uint32_t> codes;
+    ImageView<CensusCode> codes;
     ImageView<std::uint8_t> edges;
   };
 

@@ -28,7 +28,7 @@ struct MatcherConfig {
   int p2 = 135;
   int p2_min = 36;
   int p2_slope = 2;
-  int uniqueness_percent = 4;
+  int uniqueness_percent = 2;
   int texture_threshold = 4;
   int left_right_max_px = 1;
   int support_radius_px = 4;

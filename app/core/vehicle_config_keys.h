@@ -108,10 +108,10 @@ void visit_matcher_keys(Matcher& c, Visitor& v) {
     Range{0, 1024});
   v(Key{"matcher.paths", "", "sgm: aggregation paths, 5, or 3 without the two diagonals"}, c.paths, Range{3, 5, 2});
   v(Key{"matcher.p1", "", "sgm: penalty for a disparity step of 1 px along a path (P1), at most p2_min"}, c.p1,
-    Range{0, 184});
+    Range{0, 182});
   v(Key{"matcher.p2", "", "sgm: penalty for a larger disparity step (P2) where the image is even"}, c.p2,
-    Range{0, 184});
-  v(Key{"matcher.p2_min", "", "sgm: least P2, across an edge of the image; at most p2"}, c.p2_min, Range{0, 184});
+    Range{0, 182});
+  v(Key{"matcher.p2_min", "", "sgm: least P2, across an edge of the image; at most p2"}, c.p2_min, Range{0, 182});
   v(Key{"matcher.p2_slope", "per grey level", "sgm: by how much P2 falls per grey level between the two pixels"},
     c.p2_slope, Range{0, 255});
   v(Key{"matcher.uniqueness_percent", "%",

@@ -9,7 +9,7 @@
 // "Small Vision Systems: Hardware and Implementation", ISRR 1997.
 //
 // S is uint16 and cannot overflow: parameters are refused whose largest cost times the pixels of the whole window
-// exceeds 65535. Census stays below with every window (31 bits x 31 x 31 pixels = 29791). Differences of edges are
+// exceeds 65535. Census stays below with every window (16 bits x 31 x 31 pixels = 15376). Differences of edges are
 // at most 2 edge_cap: up to a cap of 34 every window is accepted, with 63 up to 21 x 21 pixels, with 127 up to
 // 15 x 17.
 //
@@ -25,6 +25,7 @@
 #include "kernels/base/image_view.h"
 #include "kernels/base/search_range.h"
 #include "kernels/base/status.h"
+#include "kernels/census/census.h"
 #include "kernels/select/select.h"
 
 namespace lakshya {
@@ -47,7 +48,7 @@ std::size_t block_scratch_bytes(int width, int disparities, int radius_v);
 // size. `descriptor_rows` of the images have descriptors; the others become kNotSearched and are in no window.
 // `scratch` aligned to 64 bytes. The result of a row does not depend on `rows`: bands give what the whole image
 // gives. size_mismatch, bad_argument, scratch_too_small.
-Status census_block_ref(ImageView<const std::uint32_t> left, ImageView<const std::uint32_t> right,
+Status census_block_ref(ImageView<const CensusCode> left, ImageView<const CensusCode> right,
                         ImageView<const std::uint8_t> textured, Rows descriptor_rows, const BlockParams& params,
                         Rows rows, std::span<std::byte> scratch, ImageView<std::int16_t> disparity);
 

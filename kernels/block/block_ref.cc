@@ -98,7 +98,7 @@ class Window {
 };
 
 struct CensusCost {
-  using Descriptor = std::uint32_t;
+  using Descriptor = CensusCode;
   static bool params_ok(const BlockParams&) { return true; }
   static int largest(const BlockParams&) { return kCensusBits; }
   static Status row(std::span<const Descriptor> left, std::span<const Descriptor> right, const BlockParams& p,
@@ -172,7 +172,7 @@ std::size_t block_scratch_bytes(int width, int disparities, int radius_v) {
   return layout.used();
 }
 
-Status census_block_ref(ImageView<const std::uint32_t> left, ImageView<const std::uint32_t> right,
+Status census_block_ref(ImageView<const CensusCode> left, ImageView<const CensusCode> right,
                         ImageView<const std::uint8_t> textured, Rows descriptor_rows, const BlockParams& params,
                         Rows rows, std::span<std::byte> scratch, ImageView<std::int16_t> disparity) {
   return block_match<CensusCost>(left, right, textured, descriptor_rows, params, rows, scratch, disparity);

@@ -5,21 +5,18 @@ namespace {
 
 // Pixel: how a pixel of the window is read.
 template <class Pixel>
-std::uint32_t census_code(int u, int v, const Pixel& pixel) {
-  std::uint32_t code = 0;
-  int bit = 0;
-  for (int y = -kCensusRadiusV; y <= 0; ++y) {
-    const int last_x = y < 0 ? kCensusRadiusU : -1;
-    for (int x = -kCensusRadiusU; x <= last_x; ++x, ++bit) {
-      if (pixel(u + x, v + y) >= pixel(u - x, v - y)) code |= 1U << bit;
-    }
+CensusCode census_code(int u, int v, const Pixel& pixel) {
+  unsigned code = 0;
+  for (unsigned k = 0; k < kCensusBits; ++k) {
+    const auto [x, y] = kCensusOffsets[k];
+    if (pixel(u + x, v + y) >= pixel(u - x, v - y)) code |= 1U << k;
   }
-  return code;
+  return static_cast<CensusCode>(code);
 }
 
 }  // namespace
 
-Status census_ref(ImageView<const std::uint8_t> image, Rows rows, ImageView<std::uint32_t> codes) {
+Status census_ref(ImageView<const std::uint8_t> image, Rows rows, ImageView<CensusCode> codes) {
   if (!same_size(image, codes)) return Status::size_mismatch;
   if (!rows_inside(rows, image)) return Status::bad_argument;
   const auto inside_pixel = [&](int u, int v) { return image.at(u, v); };

@@ -58,8 +58,8 @@ hn::Vec<UnsignedBytes> code_byte(const std::array<const std::int8_t*, kSideV>& w
   constexpr int kEnd = std::min(kFirst + 8, kCensusBits);
   auto smaller = hn::Zero(d);  // the complement of the bits
   for (int k = kEnd - 1; k >= kFirst; --k) {
-    const int x = k % kSideU;
-    const int y = k / kSideU;
+    const int x = kCensusOffsets[static_cast<std::size_t>(k)].x + kCensusRadiusU;
+    const int y = kCensusOffsets[static_cast<std::size_t>(k)].y + kCensusRadiusV;
     const auto here = hn::LoadU(d, window[static_cast<std::size_t>(y)] + i + x);
     const auto opposite = hn::LoadU(d, window[static_cast<std::size_t>(kSideV - 1 - y)] + i + kSideU - 1 - x);
     smaller = hn::Sub(hn::Add(smaller, smaller), hn::VecFromMask(d, hn::Lt(here, opposite)));
@@ -68,18 +68,18 @@ hn::Vec<UnsignedBytes> code_byte(const std::array<const std::int8_t*, kSideV>& w
   return hn::BitCast(UnsignedBytes(), hn::Xor(smaller, ones));
 }
 
-void code_row(const std::array<const std::int8_t*, kSideV>& window, int width, std::uint32_t* codes) {
+void code_row(const std::array<const std::int8_t*, kSideV>& window, int width, CensusCode* codes) {
   const UnsignedBytes d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   for (int i = 0; i < width; i += lanes) {
     const int first = std::min(i, width - lanes);
-    hn::StoreInterleaved4(code_byte<0>(window, first), code_byte<8>(window, first), code_byte<16>(window, first),
-                          code_byte<24>(window, first), d, reinterpret_cast<std::uint8_t*>(codes + first));
+    hn::StoreInterleaved2(code_byte<0>(window, first), code_byte<8>(window, first), d,
+                          reinterpret_cast<std::uint8_t*>(codes + first));
   }
 }
 
 void census_strip(const ImageView<const std::uint8_t>& image, Rows rows, Strip strip,
-                  const ImageView<std::uint32_t>& codes) {
+                  const ImageView<CensusCode>& codes) {
   std::array<WindowRow, kSideV> ring;
   const int first = rows.begin - kCensusRadiusV;
   const auto in_ring = [&](int v) -> WindowRow& { return ring[static_cast<std::size_t>((v - first) % kSideV)]; };
@@ -95,7 +95,7 @@ void census_strip(const ImageView<const std::uint8_t>& image, Rows rows, Strip s
 }
 
 // The arguments are right.
-Status census_rows(const ImageView<const std::uint8_t>& image, Rows rows, const ImageView<std::uint32_t>& codes) {
+Status census_rows(const ImageView<const std::uint8_t>& image, Rows rows, const ImageView<CensusCode>& codes) {
   if (rows.begin == rows.end) return Status::ok;
   if (image.width < static_cast<int>(hn::Lanes(Bytes()))) return census_ref(image, rows, codes);
   const int strips = (image.width + kStrip - 1) / kStrip;
@@ -115,7 +115,7 @@ namespace lakshya {
 
 HWY_EXPORT(census_rows);
 
-Status census_simd(ImageView<const std::uint8_t> image, Rows rows, ImageView<std::uint32_t> codes) {
+Status census_simd(ImageView<const std::uint8_t> image, Rows rows, ImageView<CensusCode> codes) {
   if (!same_size(image, codes)) return Status::size_mismatch;
   if (!rows_inside(rows, image)) return Status::bad_argument;
   return HWY_DYNAMIC_DISPATCH(census_rows)(image, rows, codes);

@@ -5,7 +5,7 @@
 
 namespace lakshya {
 
-Status hamming_row_ref(std::span<const std::uint32_t> left, std::span<const std::uint32_t> right,
+Status hamming_row_ref(std::span<const CensusCode> left, std::span<const CensusCode> right,
                        const SearchRange& range, std::span<std::uint8_t> cost) {
   const int width = static_cast<int>(left.size());
   if (!search_range_ok(range, width)) return Status::bad_argument;
@@ -16,7 +16,9 @@ Status hamming_row_ref(std::span<const std::uint32_t> left, std::span<const std:
     for (int i = 0; i < range.disparities; ++i) {
       const int u_right = u - (range.first + i);
       const bool inside = u_right >= range.valid_begin && u_right < range.valid_end;
-      const int distance = inside ? std::popcount(left[column] ^ right[static_cast<std::size_t>(u_right)]) : 0;
+      const int distance =
+          inside ? std::popcount(static_cast<CensusCode>(left[column] ^ right[static_cast<std::size_t>(u_right)]))
+                 : 0;
       cost[column * disparities + static_cast<std::size_t>(i)] =
           inside ? static_cast<std::uint8_t>(distance) : kOutsideCost;
     }
@@ -42,7 +44,7 @@ Status smooth_cost_row_ref(std::span<const std::uint8_t> above, std::span<const 
       int sum = 0;
       for (const std::size_t column : columns)
         sum += above[column + i] + here[column + i] + below[column + i];
-      out[columns[1] + i] = static_cast<std::uint8_t>((sum + 1) >> 2);
+      out[columns[1] + i] = static_cast<std::uint8_t>((sum + 1) >> 1);
     }
   }
   return Status::ok;

@@ -95,11 +95,44 @@ HWY_INLINE std::uint8_t first_byte(ByteVec v) {
   return hn::GetLane(v);
 }
 
-// One bit per candidate, of up to eight vectors' worth of 64 candidates. bits: a word per 64 candidates.
+// One bit per byte of a mask.
 template <class Mask>
-HWY_INLINE void store_bits(Bytes d, Mask mask, std::uint8_t* bits) {
-  (void)hn::StoreMaskBits(d, mask, bits);
+HWY_INLINE std::uint64_t mask_bits(Bytes d, Mask mask) {
+  // The size is known where the vector's is, so that on x86 this is one instruction and not a trip through memory.
+#if HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_NEON
+  std::uint16_t bits = 0;
+#elif HWY_TARGET == HWY_AVX2
+  std::uint32_t bits = 0;
+#else
+  std::uint64_t bits = 0;
+#endif
+  (void)hn::StoreMaskBits(d, mask, reinterpret_cast<std::uint8_t*>(&bits));
+  return bits;
 }
+
+// The vectors of one pixel's candidates. As many as kVectors in registers, or in memory where that number or the length
+// of a vector is not known at compile time.
+#if HWY_ARCH_ARM && HWY_TARGET != HWY_NEON
+template <std::size_t kVectors>
+class PixelVecs {
+ public:
+  HWY_INLINE ByteVec get(std::size_t k) const { return hn::Load(Bytes(), data_ + k * hn::Lanes(Bytes())); }
+  HWY_INLINE void set(std::size_t k, ByteVec v) { hn::Store(v, Bytes(), data_ + k * hn::Lanes(Bytes())); }
+
+ private:
+  alignas(64) std::uint8_t data_[512 + 64];
+};
+#else
+template <std::size_t kVectors>
+class PixelVecs {
+ public:
+  HWY_INLINE ByteVec get(std::size_t k) const { return data_[k]; }
+  HWY_INLINE void set(std::size_t k, ByteVec v) { data_[k] = v; }
+
+ private:
+  ByteVec data_[kVectors > 0 ? kVectors : 512 / hn::MaxLanes(Bytes()) + 1];
+};
+#endif
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lakshya

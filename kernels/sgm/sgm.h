@@ -21,6 +21,7 @@
 #include "kernels/base/image_view.h"
 #include "kernels/base/search_range.h"
 #include "kernels/base/status.h"
+#include "kernels/census/census.h"
 #include "kernels/select/select.h"
 
 namespace lakshya {
@@ -30,7 +31,7 @@ struct SgmParams {
   SelectParams select;
   int paths = 3;  // 5 or 3
   int p1 = 14;    // 0 <= p1 <= p2_min
-  int p2 = 135;   // p2_min <= p2 <= 184: C + P2 stays below 255
+  int p2 = 135;   // p2_min <= p2 <= 182: C + P2 stays below 255
   int p2_min = 36;
   int p2_slope = 2;      // per grey level, 0..255
   int warmup_rows = 16;  // rows above the band that start its top paths, >= 0
@@ -44,12 +45,12 @@ std::size_t sgm_scratch_bytes(int width, int disparities);
 // descriptors; the others become kNotSearched and no path crosses them. `scratch` aligned to 64 bytes.
 // The result depends on the rows of the band and on warmup_rows, never on threads.
 // size_mismatch, bad_argument, scratch_too_small.
-Status sgm_simd(ImageView<const std::uint8_t> image, ImageView<const std::uint32_t> left,
-                ImageView<const std::uint32_t> right, ImageView<const std::uint8_t> textured, Rows descriptor_rows,
+Status sgm_simd(ImageView<const std::uint8_t> image, ImageView<const CensusCode> left,
+                ImageView<const CensusCode> right, ImageView<const std::uint8_t> textured, Rows descriptor_rows,
                 const SgmParams& params, Rows rows, std::span<std::byte> scratch,
                 ImageView<std::int16_t> disparity);
-Status sgm_ref(ImageView<const std::uint8_t> image, ImageView<const std::uint32_t> left,
-               ImageView<const std::uint32_t> right, ImageView<const std::uint8_t> textured, Rows descriptor_rows,
+Status sgm_ref(ImageView<const std::uint8_t> image, ImageView<const CensusCode> left,
+               ImageView<const CensusCode> right, ImageView<const std::uint8_t> textured, Rows descriptor_rows,
                const SgmParams& params, Rows rows, std::span<std::byte> scratch, ImageView<std::int16_t> disparity);
 
 }  // namespace lakshya

@@ -20,13 +20,12 @@ HWY_BEFORE_NAMESPACE();
 namespace lakshya {
 namespace HWY_NAMESPACE {
 
-// A code is taken apart into planes of one byte, where bits can be counted in a byte (NEON, SVE, AVX3_DL), else of four
-// bits, which a table of 16 bytes counts.
+// Bits are counted in whole bytes where the machine can, else in four bits by a table of 16 bytes.
 #if HWY_TARGET == HWY_AVX3_DL || HWY_ARCH_ARM
-inline constexpr int kCodePlanes = 4;
+inline constexpr std::size_t kCodePlanes = 2;
 inline constexpr int kPlaneBits = 8;
 #else
-inline constexpr int kCodePlanes = 8;
+inline constexpr std::size_t kCodePlanes = 4;
 inline constexpr int kPlaneBits = 4;
 #endif
 
@@ -53,26 +52,12 @@ class BitCounts {
 
 // Takes the left codes apart: every plane's bits in all four bytes of a word, so that spreading them over a vector is one
 // load.
-inline void left_planes(const std::uint32_t* codes, int width, const SgmSimdRows& rows) {
-  const hn::Repartition<std::uint32_t, Bytes> d;
-  const int lanes = static_cast<int>(hn::Lanes(d));
-  const auto mask = hn::Set(d, (1U << kPlaneBits) - 1);
-  for (int u = 0; u < width; u += lanes) {
-    auto rest = hn::Undefined(d);
-    if (u + lanes <= width) {
-      rest = hn::LoadU(d, codes + u);
-    } else {
-      std::uint32_t last[kMaxVectorBytes / sizeof(std::uint32_t)] = {};
-      std::copy(codes + u, codes + width, last);
-      rest = hn::LoadU(d, last);
-    }
-    for (int p = 0; p < kCodePlanes; ++p) {
-      auto bits = hn::And(rest, mask);
-      bits = hn::Or(bits, hn::ShiftLeft<8>(bits));
-      bits = hn::Or(bits, hn::ShiftLeft<16>(bits));
-      hn::StoreU(bits, d, rows.left_planes[p].data() + u);
-      rest = hn::ShiftRight<kPlaneBits>(rest);
-    }
+inline void left_planes(const CensusCode* codes, int width, std::uint32_t* planes) {
+  constexpr unsigned kMask = (1U << kPlaneBits) - 1;
+  constexpr std::uint32_t kAllBytes = 0x01010101U;
+  for (int u = 0; u < width; ++u) {
+    for (std::size_t p = 0; p < kCodePlanes; ++p)
+      *planes++ = ((codes[u] >> (kPlaneBits * static_cast<int>(p))) & kMask) * kAllBytes;
   }
 }
 
@@ -87,8 +72,8 @@ inline ReversedRange reversed_range(const SearchRange& range, int width, int pit
   return {std::clamp(begin, 0, width + pitch), std::clamp(end, 0, width + pitch)};
 }
 
-// Byte `byte` of the codes at y.
-HWY_INLINE void store_planes(ByteVec bytes, int byte, int y, const SgmSimdRows& rows) {
+// Byte `byte` of the codes from y on.
+HWY_INLINE void store_planes(ByteVec bytes, std::size_t byte, int y, const SgmSimdRows& rows) {
   const Bytes d;
 #if HWY_TARGET == HWY_AVX3_DL || HWY_ARCH_ARM
   hn::StoreU(bytes, d, rows.right_planes[byte].data() + y);
@@ -102,65 +87,79 @@ HWY_INLINE void store_planes(ByteVec bytes, int byte, int y, const SgmSimdRows& 
 }
 
 // Takes the right codes apart, reversed. What is outside `valid` stays 0, which it has been since the start.
-inline void right_planes(const std::uint32_t* codes, int width, int first, ReversedRange valid,
+inline void right_planes(const CensusCode* codes, int width, int first, ReversedRange valid,
                          const SgmSimdRows& rows) {
-  const hn::Repartition<std::uint32_t, Bytes> d32;
-  const int words = static_cast<int>(hn::Lanes(d32));
-  std::uint32_t* reversed = rows.right_codes.data();
+  const Words d16;
+  const int words = static_cast<int>(hn::Lanes(d16));
+  CensusCode* reversed = rows.right_codes.data();
   int y = valid.begin;
   for (; y + words <= valid.end; y += words)
-    hn::StoreU(hn::Reverse(d32, hn::LoadU(d32, codes + width - first - y - words)), d32, reversed + y);
+    hn::StoreU(hn::Reverse(d16, hn::LoadU(d16, codes + width - first - y - words)), d16, reversed + y);
   for (; y < valid.end; ++y)
     reversed[y] = codes[width - 1 - first - y];
 
   const Bytes d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   for (y = valid.begin; y < valid.end; y += lanes) {
-    auto b0 = hn::Undefined(d);
-    auto b1 = b0;
-    auto b2 = b0;
-    auto b3 = b0;
-    hn::LoadInterleaved4(d, reinterpret_cast<const std::uint8_t*>(reversed + y), b0, b1, b2, b3);
-    store_planes(b0, 0, y, rows);
-    store_planes(b1, 1, y, rows);
-    store_planes(b2, 2, y, rows);
-    store_planes(b3, 3, y, rows);
+    auto low = hn::Undefined(d);
+    auto high = low;
+    hn::LoadInterleaved2(d, reinterpret_cast<const std::uint8_t*>(reversed + y), low, high);
+    store_planes(low, 0, y, rows);
+    store_planes(high, 1, y, rows);
   }
 }
 
-// Hamming distances of pixel u, `vectors` of them, into `out`.
+// Hamming distances of a row whose codes have been taken apart. Pointers of its own: bytes that are stored through other
+// pointers could change what a reference refers to.
 class HammingRow {
  public:
   HammingRow(const SgmSimdRows& rows, int width, int disparities, ReversedRange valid)
-      : rows_(rows), width_(width), disparities_(disparities), valid_(valid) {}
+      : left_(rows.left_planes.data()),
+        right_valid_(rows.right_valid.data()),
+        width_(width),
+        disparities_(disparities),
+        valid_(valid) {
+    for (std::size_t p = 0; p < kCodePlanes; ++p)
+      right_[p] = rows.right_planes[p].data();
+  }
 
   // Whether some candidate's right pixel has no descriptor.
-  bool partly_outside(int u) const {
+  HWY_INLINE bool partly_outside(int u) const {
     const int y = width_ - 1 - u;
     return y < valid_.begin || y + disparities_ > valid_.end;
   }
 
-  HWY_INLINE ByteVec at(int u, std::size_t k, std::size_t lanes) const {
+  // Of pixel u, `vectors` of them.
+  HWY_INLINE void store(int u, std::size_t vectors, std::uint8_t* out) const {
     const Bytes d;
-    const hn::Repartition<std::uint32_t, Bytes> d32;
-    const std::size_t y = static_cast<std::size_t>(width_ - 1 - u) + k * lanes;
-    auto sum = hn::Zero(d);
-    for (int p = 0; p < kCodePlanes; ++p) {
-      const auto left = hn::BitCast(d, hn::Set(d32, rows_.left_planes[p][static_cast<std::size_t>(u)]));
-      sum = hn::Add(sum, count_.of(hn::Xor(left, hn::LoadU(d, rows_.right_planes[p].data() + y))));
+    const std::size_t lanes = hn::Lanes(d);
+    const std::size_t y = static_cast<std::size_t>(width_ - 1 - u);
+#pragma GCC unroll 4
+    for (std::size_t k = 0; k < vectors; ++k)
+      hn::Store(distance(u, y + k * lanes), d, out + k * lanes);
+    if (HWY_LIKELY(!partly_outside(u))) return;
+    for (std::size_t k = 0; k < vectors; ++k) {
+      const auto inside = hn::MaskFromVec(hn::LoadU(d, right_valid_ + y + k * lanes));
+      hn::Store(hn::IfThenElse(inside, hn::Load(d, out + k * lanes), hn::Set(d, kOutsideCost)), d, out + k * lanes);
     }
-    return sum;
-  }
-
-  HWY_INLINE ByteVec at_border(int u, std::size_t k, std::size_t lanes) const {
-    const Bytes d;
-    const std::size_t y = static_cast<std::size_t>(width_ - 1 - u) + k * lanes;
-    const auto inside = hn::MaskFromVec(hn::LoadU(d, rows_.right_valid.data() + y));
-    return hn::IfThenElse(inside, at(u, k, lanes), hn::Set(d, kOutsideCost));
   }
 
  private:
-  const SgmSimdRows& rows_;
+  HWY_INLINE ByteVec part(int u, std::size_t y, std::size_t p) const {
+    const Bytes d;
+    const hn::Repartition<std::uint32_t, Bytes> d32;
+    const auto left = hn::BitCast(d, hn::Set(d32, left_[static_cast<std::size_t>(u) * kCodePlanes + p]));
+    return count_.of(hn::Xor(left, hn::LoadU(d, right_[p] + y)));
+  }
+  HWY_INLINE ByteVec distance(int u, std::size_t y) const {
+    auto sum = hn::Add(part(u, y, 0), part(u, y, 1));
+    if constexpr (kCodePlanes == 4) sum = hn::Add(sum, hn::Add(part(u, y, 2), part(u, y, 3)));
+    return sum;
+  }
+
+  const std::uint32_t* left_;
+  const std::uint8_t* right_[kCodePlanes];
+  const std::uint8_t* right_valid_;
   int width_;
   int disparities_;
   ReversedRange valid_;

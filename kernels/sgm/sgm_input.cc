@@ -23,7 +23,7 @@ std::size_t sgm_scratch_bytes(int width, int disparities) {
 
 Status check_sgm(const SgmInput& input, const SgmParams& params, std::size_t scratch_bytes,
                  const ImageView<std::int16_t>& disparity) {
-  const ImageView<const std::uint32_t>& left = input.left;
+  const ImageView<const CensusCode>& left = input.left;
   if (!same_size(left, input.image) || !same_size(left, input.right) || !same_size(left, input.textured) ||
       !same_size(left, disparity)) {
     return Status::size_mismatch;

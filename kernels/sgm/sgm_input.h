@@ -6,13 +6,14 @@
 
 #include "kernels/base/image_view.h"
 #include "kernels/base/status.h"
+#include "kernels/census/census.h"
 #include "kernels/sgm/sgm.h"
 
 namespace lakshya {
 
 struct SgmInput {
   ImageView<const std::uint8_t> image;
-  ImageView<const std::uint32_t> left, right;
+  ImageView<const CensusCode> left, right;
   ImageView<const std::uint8_t> textured;
   Rows descriptor_rows;
   Rows rows;

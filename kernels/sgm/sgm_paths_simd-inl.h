@@ -1,5 +1,8 @@
 // The two passes over a row: from right to left the costs and the path from the right, then from left to right the
-// other paths, their sum and what follows from it alone (winner, uniqueness, sub-pixel).
+// other paths, their sum, and each pixel's winner.
+//
+// Everything that an inner loop needs is a local: a byte stored through a pointer may change any member, as far as the
+// compiler knows, and it would load them all again.
 #if defined(LAKSHYA_SGM_PATHS_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAKSHYA_SGM_PATHS_SIMD_INL
 #undef LAKSHYA_SGM_PATHS_SIMD_INL
@@ -8,12 +11,12 @@
 #endif
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
 #include "kernels/sgm/sgm.h"
 #include "kernels/sgm/sgm_cost_simd-inl.h"
-#include "kernels/sgm/sgm_select_simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lakshya {
@@ -45,188 +48,216 @@ inline void jump_penalties(const std::uint8_t* a, const std::uint8_t* b, int cou
   }
 }
 
-// One path's step to a pixel: L of vector k from the costs and L of the pixel before. `least` is that pixel's least L.
-HWY_INLINE ByteVec path_step(Bytes, ByteVec cost, ByteVec stay, ByteVec below, ByteVec beyond, ByteVec p1,
-                             ByteVec jump, ByteVec least_before) {
+// One path's step to a pixel: L from the costs and L of the pixel before, whose least is `floor`; jump: floor + P2.
+HWY_INLINE ByteVec path_step(ByteVec cost, ByteVec stay, ByteVec below, ByteVec beyond, ByteVec p1, ByteVec jump,
+                             ByteVec floor) {
   const auto move = hn::SaturatedAdd(hn::Min(below, beyond), p1);
   const auto best = hn::Min(hn::Min(stay, jump), move);
-  return hn::SaturatedAdd(cost, hn::Sub(best, least_before));
+  return hn::SaturatedAdd(cost, hn::Sub(best, floor));
 }
 
-// kVectors: vectors per pixel where it is known at compile time, else 0.
+// The path along a row. L of the pixel before stays in registers.
 template <std::size_t kVectors>
-class PathRow {
+class SidePath {
  public:
-  PathRow(const SgmParams& params, const SgmSimdRows& rows, const HammingRow& hamming, std::size_t pitch)
-      : p_(params), rows_(rows), hamming_(hamming), pitch_(pitch), vectors_(pitch / hn::Lanes(Bytes())) {}
-
-  // Hamming distances of the row whose codes are in the planes.
-  void distances(std::uint8_t* out) const {
-    for (int u = p_.range.valid_begin; u < p_.range.valid_end; ++u)
-      distances_of(u, out);
+  explicit HWY_INLINE SidePath(std::size_t vectors) {
+    floor_.set(0, hn::Zero(Bytes()));
+    for (std::size_t k = 0; k < vectors; ++k)
+      path_.set(k, hn::Zero(Bytes()));  // a path starts with L = C
   }
-
-  // C and the path from the right. `below` is filled on the way when kCompute, else it is there already.
-  template <bool kCompute>
-  void costs_and_leftward_path(const std::uint8_t* above, const std::uint8_t* here, std::uint8_t* below) const {
-    const int begin = p_.range.valid_begin;
-    const int end = p_.range.valid_end;
-    auto floor = hn::Zero(Bytes());
-    for (int u = end - 1; u >= begin; --u) {
-      if constexpr (kCompute) distances_of(u, below);
-      add_rows(above + at(u), here + at(u), below + at(u), column(u));
-      if (u == end - 1) {
-        std::copy_n(column(u), pitch_, column(u + 1));  // the last column repeated
-      } else {
-        floor = leftward_step(u + 1, floor);
-      }
+  // From L of one pixel to L of the next, whose C is `cost`.
+  HWY_INLINE void step(std::size_t vectors, ByteVec p1, std::uint8_t p2, const PixelVecs<kVectors>& cost) {
+    const Bytes d;
+    const auto outside = hn::Set(d, 255);
+    const auto floor = floor_.get(0);
+    const auto jump = hn::SaturatedAdd(floor, hn::Set(d, p2));
+    auto before = outside;
+    auto lowest = outside;
+#pragma GCC unroll 4
+    for (std::size_t k = 0; k < vectors; ++k) {
+      const auto here = path_.get(k);
+      const auto after = k + 1 < vectors ? path_.get(k + 1) : outside;
+      const auto path =
+          path_step(cost.get(k), here, moved_up(d, here, before), moved_down(d, here, after), p1, jump, floor);
+      path_.set(k, path);
+      lowest = hn::Min(lowest, path);
+      before = here;
     }
-    std::copy_n(column(begin), pitch_, column(begin - 1));
-    leftward_step(begin, floor);
+    floor_.set(0, least(d, lowest));
   }
-
-  // The other paths, S, and per pixel the winner and its disparity if S alone says yes.
-  template <bool kDiagonal>
-  void sums_and_winners(const std::uint8_t* textured, const std::uint16_t* unique_limit,
-                        std::int16_t* disparity) const;
+  HWY_INLINE ByteVec get(std::size_t k) const {
+    return path_.get(k);
+  }
 
  private:
-  std::size_t vectors() const { return kVectors > 0 ? kVectors : vectors_; }
-  static std::size_t lanes() { return hn::Lanes(Bytes()); }
-  // Every row has a pixel of margin on the left, and one on the right: column -1 is there.
-  std::size_t at(int u) const { return static_cast<std::size_t>(u + 1) * pitch_; }
-  // The three rows' Hamming distances added up, of the last four pixels.
-  std::uint8_t* column(int u) const { return rows_.columns.data() + static_cast<std::size_t>(u & 3) * pitch_; }
-
-  HWY_INLINE void distances_of(int u, std::uint8_t* out) const {
-    const Bytes d;
-    std::uint8_t* pixel = out + at(u);
-    if (HWY_UNLIKELY(hamming_.partly_outside(u))) {
-      for (std::size_t k = 0; k < vectors(); ++k)
-        hn::Store(hamming_.at_border(u, k, lanes()), d, pixel + k * lanes());
-    } else {
-      for (std::size_t k = 0; k < vectors(); ++k)
-        hn::Store(hamming_.at(u, k, lanes()), d, pixel + k * lanes());
-    }
-  }
-
-  HWY_INLINE void add_rows(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
-                           std::uint8_t* out) const {
-    const Bytes d;
-    for (std::size_t k = 0; k < vectors(); ++k) {
-      const std::size_t i = k * lanes();
-      hn::Store(hn::Add(hn::Add(hn::Load(d, above + i), hn::Load(d, below + i)), hn::Load(d, here + i)), d,
-                out + i);
-    }
-  }
-
-  // C of pixel u: (sum of nine + 1) >> 2 as a rounding average and a shift; 255 beyond the disparities.
-  HWY_INLINE ByteVec smooth_cost(int u, std::size_t k) const {
-    const Bytes d;
-    const Words d16;
-    const std::size_t i = k * lanes();
-    const auto pair = hn::Add(hn::Load(d, column(u - 1) + i), hn::Load(d, column(u) + i));
-    const auto half = hn::AverageRound(pair, hn::Load(d, column(u + 1) + i));
-    const auto quarter = hn::And(hn::BitCast(d, hn::ShiftRight<1>(hn::BitCast(d16, half))), hn::Set(d, 127));
-    return hn::Or(quarter, hn::Load(d, rows_.beyond.data() + i));
-  }
-
-  // C and L of pixel u from L of pixel u + 1, whose least is `floor`; the new least.
-  HWY_INLINE ByteVec leftward_step(int u, ByteVec floor) const {
-    const Bytes d;
-    const auto p1 = hn::Set(d, static_cast<std::uint8_t>(p_.p1));
-    const auto jump = hn::SaturatedAdd(floor, hn::Set(d, rows_.side_penalty[static_cast<std::size_t>(u) + 1]));
-    const auto outside = hn::Set(d, 255);
-    const std::uint8_t* from = rows_.sideways.data() + at(u + 1);
-    std::uint8_t* to = rows_.sideways.data() + at(u);
-    std::uint8_t* cost_row = rows_.cost.data() + at(u);
-    auto before = outside;
-    auto here = hn::Load(d, from);
-    auto lowest = outside;
-    for (std::size_t k = 0; k < vectors(); ++k) {
-      const std::size_t i = k * lanes();
-      const auto after = k + 1 < vectors() ? hn::Load(d, from + i + lanes()) : outside;
-      const auto cost = smooth_cost(u, k);
-      const auto path =
-          path_step(d, cost, here, moved_up(d, here, before), moved_down(d, here, after), p1, jump, floor);
-      hn::Store(cost, d, cost_row + i);
-      hn::Store(path, d, to + i);
-      lowest = hn::Min(lowest, path);
-      before = here;
-      here = after;
-    }
-    return least(d, lowest);
-  }
-
-  const SgmParams& p_;
-  const SgmSimdRows& rows_;
-  const HammingRow& hamming_;
-  std::size_t pitch_;
-  std::size_t vectors_;
+  PixelVecs<kVectors> path_;
+  PixelVecs<1> floor_;  // the least L, in every byte
 };
 
-template <std::size_t kVectors>
-template <bool kDiagonal>
-void PathRow<kVectors>::sums_and_winners(const std::uint8_t* textured, const std::uint16_t* unique_limit,
-                                         std::int16_t* disparity) const {
-  constexpr int kPaths = kDiagonal ? 3 : 1;
-  const Bytes d;
-  const auto p1 = hn::Set(d, static_cast<std::uint8_t>(p_.p1));
-  const auto outside = hn::Set(d, 255);
-  const WinnerOfPixel<kVectors> winner(p_, rows_, unique_limit, vectors());
-  auto floor = hn::Zero(d);
-  for (int u = p_.range.valid_begin; u < p_.range.valid_end; ++u) {
-    const auto column = static_cast<std::size_t>(u);
-    const auto jump = hn::SaturatedAdd(floor, hn::Set(d, rows_.side_penalty[column]));
-    const std::uint8_t* cost_row = rows_.cost.data() + at(u);
-    const std::uint8_t* from = rows_.sideways.data() + at(u - 1);
-    std::uint8_t* to = rows_.sideways.data() + at(u);
-    std::uint8_t* sums = rows_.sums.data() + at(u);
-    // The path from the left takes the place of the one from the right.
-    auto before = outside;
-    auto here = hn::Load(d, from);
-    auto lowest = outside;
-    for (std::size_t k = 0; k < vectors(); ++k) {
-      const std::size_t i = k * lanes();
-      const auto after = k + 1 < vectors() ? hn::Load(d, from + i + lanes()) : outside;
-      const auto path = path_step(d, hn::Load(d, cost_row + i), here, moved_up(d, here, before),
-                                  moved_down(d, here, after), p1, jump, floor);
-      hn::Store(hn::SaturatedAdd(path, hn::Load(d, to + i)), d, sums + i);
-      hn::Store(path, d, to + i);
-      lowest = hn::Min(lowest, path);
-      before = here;
-      here = after;
-    }
-    floor = least(d, lowest);
+// What the passes need of a row. Every row has a pixel of margin on the left, and one on the right.
+struct RowShape {
+  int begin = 0;  // columns with descriptors
+  int end = 0;
+  std::size_t pitch = 0;
+  std::size_t vectors = 0;
+  std::size_t at(int u) const { return static_cast<std::size_t>(u + 1) * pitch; }
+};
 
-    auto lowest_sum = outside;
-    for (int path = 0; path < kPaths; ++path) {
-      constexpr int kShift[kMaxTopPaths] = {0, -1, 1};
-      const int source = u + kShift[path];
-      const std::uint8_t* above = rows_.above[path].data() + at(source);
-      std::uint8_t* current = rows_.current[path].data() + at(u);
-      const auto above_floor = hn::Set(d, rows_.above_least[path][static_cast<std::size_t>(source + 1)]);
-      const auto above_jump = hn::SaturatedAdd(above_floor, hn::Set(d, rows_.top_penalty[path][column]));
-      auto top_before = outside;
-      auto top_here = hn::Load(d, above);
-      auto top_lowest = outside;
-      for (std::size_t k = 0; k < vectors(); ++k) {
-        const std::size_t i = k * lanes();
-        const auto after = k + 1 < vectors() ? hn::Load(d, above + i + lanes()) : outside;
-        const auto top = path_step(d, hn::Load(d, cost_row + i), top_here, moved_up(d, top_here, top_before),
-                                   moved_down(d, top_here, after), p1, above_jump, above_floor);
-        const auto sum = hn::SaturatedAdd(hn::Load(d, sums + i), top);
-        hn::Store(top, d, current + i);
-        hn::Store(sum, d, sums + i);
-        top_lowest = hn::Min(top_lowest, top);
-        if (path == kPaths - 1) lowest_sum = hn::Min(lowest_sum, sum);
-        top_before = top_here;
-        top_here = after;
+// Hamming distances of every pixel of a row.
+template <std::size_t kVectors>
+void hamming_distances(const HammingRow& distances, const RowShape& shape, std::uint8_t* out) {
+  const HammingRow row = distances;
+  const std::size_t vectors = kVectors > 0 ? kVectors : shape.vectors;
+  for (int u = shape.begin; u < shape.end; ++u)
+    row.store(u, vectors, out + shape.at(u));
+}
+
+// C and L of the path from the right. `below` is filled on the way when kCompute, else it is there already.
+template <std::size_t kVectors, bool kCompute>
+void costs_and_leftward_path(const HammingRow& distances, const RowShape& row_shape, const SgmSimdRows& rows,
+                             const SgmParams& params, const std::uint8_t* above, const std::uint8_t* here,
+                             std::uint8_t* below) {
+  const Bytes d;
+  const HammingRow hamming = distances;
+  const RowShape shape = row_shape;
+  const std::size_t lanes = hn::Lanes(d);
+  const std::size_t vectors = kVectors > 0 ? kVectors : shape.vectors;
+  const auto p1 = hn::Set(d, static_cast<std::uint8_t>(params.p1));
+  const std::uint8_t* penalties = rows.side_penalty.data();
+  const std::uint8_t* beyond = rows.beyond.data();
+  std::uint8_t* costs = rows.cost.data();
+  std::uint8_t* paths = rows.sideways.data();
+  // Three rows of distances added up: of the pixel right of the one that gets its cost, of itself, and the one left.
+  PixelVecs<kVectors> right;
+  PixelVecs<kVectors> middle;
+  PixelVecs<kVectors> left;
+  SidePath<kVectors> path(vectors);
+  // The last column stands in for the one right of it, and the first for the one left of it.
+  for (int u = shape.end - 1; u >= shape.begin - 1; --u) {
+    if (HWY_LIKELY(u >= shape.begin)) {
+      const std::size_t at = shape.at(u);
+      if constexpr (kCompute) hamming.store(u, vectors, below + at);
+#pragma GCC unroll 4
+      for (std::size_t k = 0; k < vectors; ++k) {
+        const std::size_t i = at + k * lanes;
+        left.set(k, hn::Add(hn::Add(hn::Load(d, above + i), hn::Load(d, below + i)), hn::Load(d, here + i)));
       }
-      rows_.current_least[path][column + 1] = first_byte(least(d, top_lowest));
     }
-    if (disparity == nullptr) continue;  // a warm-up row
-    disparity[u] = textured[u] == 0 ? winner.without_texture(u) : winner.of(u, sums, least(d, lowest_sum));
+    if (HWY_UNLIKELY(u == shape.end - 1)) {
+      for (std::size_t k = 0; k < vectors; ++k)
+        right.set(k, left.get(k));
+    } else {
+      const std::size_t at = shape.at(u + 1);
+      PixelVecs<kVectors> cost;
+#pragma GCC unroll 4
+      for (std::size_t k = 0; k < vectors; ++k) {
+        cost.set(k, hn::AverageRound(hn::Add(left.get(k), middle.get(k)), right.get(k)));
+        if constexpr (kVectors == 0) cost.set(k, hn::Or(cost.get(k), hn::Load(d, beyond + k * lanes)));
+        hn::Store(cost.get(k), d, costs + at + k * lanes);
+        right.set(k, middle.get(k));
+      }
+      path.step(vectors, p1, penalties[u + 2], cost);
+#pragma GCC unroll 4
+      for (std::size_t k = 0; k < vectors; ++k)
+        hn::Store(path.get(k), d, paths + at + k * lanes);
+    }
+#pragma GCC unroll 4
+    for (std::size_t k = 0; k < vectors; ++k)
+      middle.set(k, left.get(k));
+  }
+}
+
+// The other paths, S, and for a wanted row each pixel's winner with what decides about it.
+template <std::size_t kVectors, bool kDiagonal>
+void sums_and_winners(const RowShape& row_shape, const SgmSimdRows& r, const SgmParams& params,
+                      const std::uint16_t* unique_limit, bool wanted) {
+  constexpr std::size_t kPaths = kDiagonal ? 3 : 1;
+  constexpr int kShift[kMaxTopPaths] = {0, -1, 1};
+  const Bytes d;
+  const RowShape shape = row_shape;
+  const SgmSimdRows rows = r;
+  const std::size_t lanes = hn::Lanes(d);
+  const std::size_t vectors = kVectors > 0 ? kVectors : shape.vectors;
+  const auto p1 = hn::Set(d, static_cast<std::uint8_t>(params.p1));
+  const auto outside = hn::Set(d, 255);
+#if !(HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL)
+  const auto first_lane = hn::VecFromMask(d, hn::FirstN(d, 1));
+  const auto last_lane = hn::Not(hn::VecFromMask(d, hn::FirstN(d, lanes - 1)));
+#endif
+  const int last = params.range.disparities - 1;
+  const std::uint8_t* costs = rows.cost.data();
+  const std::uint8_t* leftward = rows.sideways.data();
+  const std::uint8_t* side_penalty = rows.side_penalty.data();
+  std::uint8_t* sums = rows.sums.data();
+  SidePath<kVectors> path(vectors);
+  PixelVecs<kVectors> sum;
+  for (int u = shape.begin; u < shape.end; ++u) {
+    const std::size_t at = shape.at(u);
+    PixelVecs<kVectors> cost;
+#pragma GCC unroll 4
+    for (std::size_t k = 0; k < vectors; ++k)
+      cost.set(k, hn::Load(d, costs + at + k * lanes));
+    path.step(vectors, p1, side_penalty[u], cost);
+#pragma GCC unroll 4
+    for (std::size_t k = 0; k < vectors; ++k)
+      sum.set(k, hn::SaturatedAdd(path.get(k), hn::Load(d, leftward + at + k * lanes)));
+
+    for (std::size_t t = 0; t < kPaths; ++t) {
+      const std::uint8_t* above = rows.above[t].data() + shape.at(u + kShift[t]);
+      std::uint8_t* current = rows.current[t].data() + at;
+      const auto floor = hn::Set(d, rows.above_least[t].data()[u + 1 + kShift[t]]);
+      const auto jump = hn::SaturatedAdd(floor, hn::Set(d, rows.top_penalty[t].data()[u]));
+      auto lowest = outside;
+#pragma GCC unroll 4
+      for (std::size_t k = 0; k < vectors; ++k) {
+        const std::size_t i = k * lanes;
+        const auto here = hn::Load(d, above + i);
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+        // A load of 64 bytes beside the alignment is two.
+        const auto below = moved_up(d, here, k > 0 ? hn::Load(d, above + i - lanes) : outside);
+        const auto beyond = moved_down(d, here, k + 1 < vectors ? hn::Load(d, above + i + lanes) : outside);
+#else
+        auto below = hn::LoadU(d, above + i - 1);
+        auto beyond = hn::LoadU(d, above + i + 1);
+        if (k == 0) below = hn::Or(below, first_lane);
+        if (k + 1 == vectors) beyond = hn::Or(beyond, last_lane);
+#endif
+        const auto top = path_step(cost.get(k), here, below, beyond, p1, jump, floor);
+        hn::Store(top, d, current + i);
+        lowest = hn::Min(lowest, top);
+        sum.set(k, hn::SaturatedAdd(sum.get(k), top));
+      }
+      rows.current_least[t].data()[u + 1] = first_byte(least(d, lowest));
+    }
+    if (!wanted) continue;
+
+    auto lowest = outside;
+#pragma GCC unroll 4
+    for (std::size_t k = 0; k < vectors; ++k) {
+      hn::Store(sum.get(k), d, sums + at + k * lanes);
+      lowest = hn::Min(lowest, sum.get(k));
+    }
+    lowest = least(d, lowest);
+    const unsigned least_sum = first_byte(lowest);
+    const unsigned limit = unique_limit[least_sum];
+    const auto limits = hn::Set(d, static_cast<std::uint8_t>(std::min(limit, 255U)));
+    int best = 0;
+    int rivals = 0;
+    for (std::size_t k = vectors; k-- > 0;) {
+      const std::uint64_t equal = mask_bits(d, hn::Eq(sum.get(k), lowest));
+      best = equal != 0 ? static_cast<int>(k * lanes) + std::countr_zero(equal) : best;
+      // Below the limit: at most one less than it.
+      rivals += std::popcount(mask_bits(d, hn::Ne(hn::SaturatedSub(limits, sum.get(k)), hn::Zero(d))));
+    }
+    const unsigned before = best > 0 ? sums[at + static_cast<std::size_t>(best) - 1] : 255U;
+    const unsigned after = best < last ? sums[at + static_cast<std::size_t>(best) + 1] : 255U;
+    rivals -=
+        static_cast<int>(least_sum < limit) + static_cast<int>(before < limit) + static_cast<int>(after < limit);
+    rows.winner.data()[u] = best;
+    rows.winner_sum.data()[u] = static_cast<std::int32_t>(least_sum);
+    rows.sum_before.data()[u] = static_cast<std::int32_t>(before);
+    rows.sum_after.data()[u] = static_cast<std::int32_t>(after);
+    rows.rivals.data()[u] = limit > 255 ? 1 : rivals;
   }
 }
 

@@ -135,7 +135,7 @@ class Band {
 // nearest one that has them.
 class CostRows {
  public:
-  CostRows(const ImageView<const std::uint32_t>& left, const ImageView<const std::uint32_t>& right,
+  CostRows(const ImageView<const CensusCode>& left, const ImageView<const CensusCode>& right,
            const SearchRange& range, Rows descriptor_rows)
       : left_(left), right_(right), range_(range), last_(descriptor_rows.end - 1), first_(descriptor_rows.begin) {}
 
@@ -160,8 +160,8 @@ class CostRows {
     return smooth_cost_row_ref(rows.hamming[0], rows.hamming[1], rows.hamming[2], range_, rows.cost);
   }
 
-  ImageView<const std::uint32_t> left_;
-  ImageView<const std::uint32_t> right_;
+  ImageView<const CensusCode> left_;
+  ImageView<const CensusCode> right_;
   SearchRange range_;
   int last_;
   int first_;
@@ -175,8 +175,8 @@ std::size_t sgm_ref_scratch_bytes(int width, int disparities) {
   return layout.used();
 }
 
-Status sgm_ref(ImageView<const std::uint8_t> image, ImageView<const std::uint32_t> left,
-               ImageView<const std::uint32_t> right, ImageView<const std::uint8_t> textured, Rows descriptor_rows,
+Status sgm_ref(ImageView<const std::uint8_t> image, ImageView<const CensusCode> left,
+               ImageView<const CensusCode> right, ImageView<const std::uint8_t> textured, Rows descriptor_rows,
                const SgmParams& params, Rows rows, std::span<std::byte> scratch,
                ImageView<std::int16_t> disparity) {
   const SgmInput input{image, left, right, textured, descriptor_rows, rows};

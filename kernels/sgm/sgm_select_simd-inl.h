@@ -1,5 +1,5 @@
-// From the sums of a row to its disparities, as kernels/select says: winner, uniqueness and sub-pixel of a pixel while
-// its sums are at hand, then the right image's winners and the left-right check of the row.
+// From the winners of a row to its disparities, as kernels/select says: the right image's winners, then everything that
+// decides about a pixel, for a vector of pixels.
 #if defined(LAKSHYA_SGM_SELECT_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAKSHYA_SGM_SELECT_SIMD_INL
 #undef LAKSHYA_SGM_SELECT_SIMD_INL
@@ -8,127 +8,60 @@
 #endif
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 
-#include "kernels/base/integer.h"
 #include "kernels/base/units.h"
-#include "kernels/sgm/candidates_simd-inl.h"
 #include "kernels/sgm/sgm.h"
 #include "kernels/sgm/sgm_cost_simd-inl.h"
-#include "kernels/sgm/sgm_simd_rows.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lakshya {
 namespace HWY_NAMESPACE {
 
-// Sums below this limit make a least sum `s` ambiguous; more than 255: every candidate is below it.
+// Where there is no right pixel: far from every candidate.
+inline constexpr std::int32_t kNoRightWinner = -100'000;
+
+// Sums below this limit are too near to a least sum of `s`; more than 255: every sum is.
 inline void unique_limits(int uniqueness_percent, std::uint16_t (&limit)[256]) {
   const int share = 100 - uniqueness_percent;
   for (int s = 0; s < 256; ++s)
     limit[s] = static_cast<std::uint16_t>((100 * s + share - 1) / share);
 }
 
-// kVectors: vectors per pixel where it is known at compile time, else 0.
-template <std::size_t kVectors>
-class WinnerOfPixel {
- public:
-  WinnerOfPixel(const SgmParams& params, const SgmSimdRows& rows, const std::uint16_t* unique_limit,
-                std::size_t vectors)
-      : p_(params), winners_(rows.winner.data()), limits_(unique_limit), vectors_(vectors) {}
-
-  HWY_INLINE std::int16_t without_texture(int u) const { return decided(u, kLowTexture); }
-
-  // sums: S of pixel u; lowest: its least in every byte.
-  HWY_INLINE std::int16_t of(int u, const std::uint8_t* sums, ByteVec lowest) const {
-    const Bytes d;
-    const std::size_t lanes = hn::Lanes(d);
-    const unsigned least_sum = first_byte(lowest);
-    const unsigned limit = limits_[least_sum];
-    const auto limits = hn::Set(d, static_cast<std::uint8_t>(std::min(limit, 255U)));
-    // One bit per candidate. A vector's bits may be stored over the next vector's place, which is stored later.
-    std::uint64_t equal[kWords];
-    std::uint64_t below[kWords];
-    const std::size_t words = (vectors() * lanes + 63) / 64;
-    equal[words - 1] = 0;
-    below[words - 1] = 0;
-    for (std::size_t k = 0; k < vectors(); ++k) {
-      const auto s = hn::Load(d, sums + k * lanes);
-      (void)hn::StoreMaskBits(d, hn::Eq(s, lowest), reinterpret_cast<std::uint8_t*>(equal) + k * lanes / 8);
-      const auto close = hn::SaturatedSub(limits, s);
-      (void)hn::StoreMaskBits(d, hn::Ne(close, hn::Zero(d)),
-                              reinterpret_cast<std::uint8_t*>(below) + k * lanes / 8);
-    }
-    int best = 0;
-    int ambiguous = 0;
-    for (std::size_t w = words; w-- > 0;) {
-      best = equal[w] != 0 ? static_cast<int>(64 * w) + std::countr_zero(equal[w]) : best;
-      ambiguous += std::popcount(below[w]);
-    }
-    const int u_right = u - (p_.range.first + best);
-    if (u_right < p_.range.valid_begin || u_right >= p_.range.valid_end) return decided(u, kNotSearched);
-    const int last = p_.range.disparities - 1;
-    const unsigned before = best > 0 ? sums[best - 1] : 255U;
-    const unsigned after = best < last ? sums[best + 1] : 255U;
-    ambiguous -=
-        static_cast<int>(least_sum < limit) + static_cast<int>(before < limit) + static_cast<int>(after < limit);
-    if (limit > 255 || ambiguous > 0) return decided(u, kNotUnique);
-    winners_[u] = static_cast<std::int16_t>(best);
-    int fraction16 = 0;
-    if (best > 0 && best < last) {
-      const int numerator = static_cast<int>(before) - static_cast<int>(after);
-      const int curvature = static_cast<int>(before + after - 2 * least_sum);
-      const int denominator = curvature > 1 ? curvature : 1;
-      fraction16 = floor_divide(kDisparityScale * numerator + denominator, 2 * denominator);
-    }
-    return static_cast<std::int16_t>(kDisparityScale * (p_.range.first + best) + fraction16 + p_.select.offset16);
-  }
-
- private:
-  static constexpr std::size_t kWords = kVectors > 0 ? kVectors : kMaxDisparities / 64 + 1;
-  std::size_t vectors() const { return kVectors > 0 ? kVectors : vectors_; }
-
-  HWY_INLINE std::int16_t decided(int u, NoDisparity reason) const {
-    winners_[u] = -1;
-    return reason;
-  }
-
-  const SgmParams& p_;
-  std::int16_t* winners_;
-  const std::uint16_t* limits_;
-  std::size_t vectors_;
-};
-
-// The left pixel that each right pixel matches best, of the right pixels in `valid`. As many right pixels as a vector
-// has bytes keep their least sum and its place in registers, while the left pixels that can match them pass by: their
-// sums for these right pixels lie side by side.
-inline void right_winners(const SgmParams& p, int width, std::size_t pitch, ReversedRange valid,
+// The candidate that each right pixel matches best, of the right pixels in `valid`. As many right pixels as a vector has
+// bytes keep their least sum and its place in registers, while the left pixels that can match them pass by: their sums
+// for these right pixels lie side by side.
+inline void right_winners(const SearchRange& range, int width, std::size_t pitch, ReversedRange valid,
                           const SgmSimdRows& rows) {
   const Bytes d;
+  const hn::Repartition<std::int32_t, Bytes> d32;
+  const hn::Rebind<std::uint8_t, decltype(d32)> d8;  // as many bytes as words
   const int lanes = static_cast<int>(hn::Lanes(d));
+  const int words = static_cast<int>(hn::Lanes(d32));
   const int span = static_cast<int>(pitch);
   constexpr int kSteps = 255;  // places of a byte, 0 is none
   const auto one = hn::Set(d, 1);
+  const std::uint8_t* outside = rows.outside.data() + kMaxVectorBytes;
   for (int y = valid.begin; y < valid.end; y += lanes) {
-    const int first_pixel = std::max(p.range.valid_begin, width - y - lanes);
-    const int last_pixel = std::min(p.range.valid_end, width - 1 - y + span);
-    std::int16_t* winners = rows.right_winner.data() + y;
+    const int first_pixel = std::max(range.valid_begin, width - y - lanes);
+    const int last_pixel = std::min(range.valid_end, width - 1 - y + span);
     auto lowest = hn::Set(d, 255);
     for (int begin = first_pixel; begin < last_pixel; begin += kSteps) {
       const int end = std::min(begin + kSteps, last_pixel);
       auto place = hn::Zero(d);
       if (begin == first_pixel) {
-        // A sum of 255 is never less: the first left pixel that can match stands from the start.
+        // No sum is more than 255: the first left pixel that can match stands from the start.
         const auto head = hn::Set(d, static_cast<std::uint8_t>(std::clamp(width - 1 - y - begin, 0, 254)));
         place = hn::Add(hn::SaturatedSub(head, hn::Iota(d, 0)), one);
       }
       auto step = one;
-      for (int u = begin; u < end; ++u) {
-        const int i = y - (width - 1) + u;  // candidate of the vector's first right pixel
-        auto s = hn::LoadU(d, rows.sums.data() + static_cast<std::ptrdiff_t>(pitch) * (u + 1) + i);
-        if (i < 0 || i + lanes > span) s = hn::Or(s, hn::LoadU(d, rows.outside.data() + kMaxVectorBytes + i));
+      // Candidate of the vector's first right pixel, and its sum; both move by one from pixel to pixel.
+      int i = y - (width - 1) + begin;
+      const std::uint8_t* sums = rows.sums.data() + static_cast<std::ptrdiff_t>(pitch) * (begin + 1) + i;
+      for (int u = begin; u < end; ++u, ++i, sums += pitch + 1) {
+        auto s = hn::LoadU(d, sums);
+        if (i < 0 || i + lanes > span) s = hn::Or(s, hn::LoadU(d, outside + i));
         const auto less = hn::Min(lowest, s);
         place = hn::Max(place, hn::IfThenZeroElse(hn::Eq(less, lowest), step));
         lowest = less;
@@ -136,33 +69,103 @@ inline void right_winners(const SgmParams& p, int width, std::size_t pitch, Reve
       }
       alignas(kMaxVectorBytes) std::uint8_t places[kMaxVectorBytes];
       hn::Store(place, d, places);
-      for (int k = 0; k < lanes; ++k)
-        winners[k] = places[k] != 0 ? static_cast<std::int16_t>(begin + places[k] - 1) : winners[k];
+      for (int k = 0; k < lanes; k += words) {
+        const auto steps = hn::PromoteTo(d32, hn::LoadU(d8, places + k));
+        const auto found = hn::Add(steps, hn::Iota(d32, y - (width - 1) + begin + k - 1));
+        std::int32_t* winners = rows.right_winner.data() + y + k;
+        const auto kept = hn::LoadU(d32, winners);
+        hn::StoreU(hn::IfThenElse(hn::Eq(steps, hn::Zero(d32)), kept, found), d32, winners);
+      }
     }
   }
+  std::fill_n(rows.right_winner.begin() + valid.end, kMaxVectorBytes, kNoRightWinner);
 }
 
-// Takes back disparities whose right pixels are matched better by others.
-inline void left_right_check(const SgmParams& p, int width, const SgmSimdRows& rows, std::int16_t* disparity) {
-  const int base = kDisparityScale * p.range.first + p.select.offset16;
-  for (int u = p.range.valid_begin; u < p.range.valid_end; ++u) {
-    const int best = rows.winner[static_cast<std::size_t>(u)];
-    if (best < 0) continue;
-    const int fraction16 = disparity[u] - base - kDisparityScale * best;
-    const int down = best + (fraction16 < 0 ? -1 : 0);
-    const int up = best + (fraction16 > 0 ? 1 : 0);
-    bool agrees = false;
-    for (int i = down; i <= up; ++i) {
-      const int u_right = u - (p.range.first + i);
-      if (u_right < p.range.valid_begin || u_right >= p.range.valid_end) continue;
-      const int y = width - 1 - u + i;
-      // Of the right pixel's candidates the one that its winner stands for.
-      const int right_best = y - (width - 1) + rows.right_winner[static_cast<std::size_t>(y)];
-      agrees = agrees || std::abs(best - right_best) <= p.select.left_right_max;
-    }
-    if (!agrees) disparity[u] = kLeftRightFailed;
+// Decides about the pixels of a row.
+class Decide {
+ public:
+  using Ints = hn::Repartition<std::int32_t, Bytes>;
+  using Int = hn::Vec<Ints>;
+
+  Decide(const SgmParams& params, int width, const SgmSimdRows& rows)
+      : p_(params), width_(width), rows_(rows), first_(params.range.first), last_(params.range.disparities - 1) {}
+
+  void row(const std::uint8_t* textured, std::int16_t* disparity) const {
+    const int lanes = static_cast<int>(hn::Lanes(Ints()));
+    const int end = p_.range.valid_end;
+    int u = p_.range.valid_begin;
+    for (; u + lanes <= end; u += lanes)
+      pixels(u, textured + u, disparity + u);
+    if (u == end) return;
+    std::uint8_t last_textured[kMaxVectorBytes] = {};
+    std::int16_t last_disparities[kMaxVectorBytes];
+    std::copy(textured + u, textured + end, last_textured);
+    pixels(u, last_textured, last_disparities);
+    std::copy_n(last_disparities, end - u, disparity + u);
   }
-}
+
+ private:
+  // 1/16 px relative to the winner: floor((16 num + den) / (2 den)). The quotient differs from every whole number by
+  // nothing or by at least 1 / (2 den) > 1 / 2048, so its rounding to a float does not change its floor.
+  HWY_INLINE Int fraction(Int best, Int sum, Int before, Int after) const {
+    const Ints d;
+    const hn::RebindToFloat<Ints> df;
+    const auto one = hn::Set(d, 1);
+    const auto numerator = hn::Sub(before, after);
+    const auto denominator = hn::Max(hn::Sub(hn::Add(before, after), hn::Add(sum, sum)), one);
+    const auto above = hn::Add(hn::ShiftLeft<kDisparityBits>(numerator), denominator);
+    const auto quotient = hn::Div(hn::ConvertTo(df, above), hn::ConvertTo(df, hn::Add(denominator, denominator)));
+    const auto inner = hn::And(hn::Gt(best, hn::Zero(d)), hn::Lt(best, hn::Set(d, last_)));
+    return hn::IfThenElseZero(inner, hn::ConvertTo(d, hn::Floor(quotient)));
+  }
+
+  // Whether the right pixel of `candidate` has its own winner near to `best`.
+  HWY_INLINE hn::Mask<Ints> right_agrees(Int pixel, Int candidate, Int best) const {
+    const Ints d;
+    const auto y = hn::Max(hn::Add(hn::Sub(hn::Set(d, width_ - 1), pixel), candidate), hn::Zero(d));
+    const auto theirs = hn::GatherIndex(d, rows_.right_winner.data(), y);
+    return hn::Lt(hn::Abs(hn::Sub(best, theirs)),
+                  hn::Set(d, std::min(p_.select.left_right_max, kMaxDisparities) + 1));
+  }
+
+  HWY_INLINE void pixels(int u, const std::uint8_t* textured, std::int16_t* disparity) const {
+    const Ints d;
+    const hn::Rebind<std::uint8_t, Ints> d8;
+    const hn::Rebind<std::int16_t, Ints> d16;
+    const auto column = static_cast<std::size_t>(u);
+    const auto zero = hn::Zero(d);
+    const auto pixel = hn::Iota(d, u);
+    const auto best = hn::LoadU(d, rows_.winner.data() + column);
+    const auto sum = hn::LoadU(d, rows_.winner_sum.data() + column);
+    const auto before = hn::LoadU(d, rows_.sum_before.data() + column);
+    const auto after = hn::LoadU(d, rows_.sum_after.data() + column);
+    const auto part = fraction(best, sum, before, after);
+    const auto whole = hn::Add(best, hn::Set(d, first_));
+    auto result = hn::Add(hn::Add(hn::ShiftLeft<kDisparityBits>(whole), part), hn::Set(d, p_.select.offset16));
+    if (p_.select.left_right_max >= 0) {
+      const auto towards = hn::Sub(hn::IfThenElseZero(hn::Gt(part, zero), hn::Set(d, 1)),
+                                   hn::IfThenElseZero(hn::Lt(part, zero), hn::Set(d, 1)));
+      const auto agrees =
+          hn::Or(right_agrees(pixel, best, best), right_agrees(pixel, hn::Add(best, towards), best));
+      result = hn::IfThenElse(agrees, result, hn::Set(d, kLeftRightFailed));
+    }
+    const auto rivals = hn::LoadU(d, rows_.rivals.data() + column);
+    result = hn::IfThenElse(hn::Gt(rivals, zero), hn::Set(d, kNotUnique), result);
+    const auto u_right = hn::Sub(pixel, whole);
+    const auto inside = hn::And(hn::Gt(u_right, hn::Set(d, p_.range.valid_begin - 1)),
+                                hn::Lt(u_right, hn::Set(d, p_.range.valid_end)));
+    result = hn::IfThenElse(inside, result, hn::Set(d, kNotSearched));
+    const auto flat = hn::Eq(hn::PromoteTo(d, hn::LoadU(d8, textured)), zero);
+    result = hn::IfThenElse(flat, hn::Set(d, kLowTexture), result);
+    hn::StoreU(hn::DemoteTo(d16, result), d16, disparity);
+  }
+
+  const SgmParams& p_;
+  int width_;
+  const SgmSimdRows& rows_;
+  std::int32_t first_;
+  std::int32_t last_;
+};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lakshya

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include "hwy/highway.h"
 #include "kernels/base/units.h"
@@ -21,7 +20,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lakshya {
 namespace HWY_NAMESPACE {
 
-// kVectors: vectors per pixel, 0: any number.
+// kVectors: vectors per pixel where that is known and no candidate is beyond the disparities, 0: any number.
 template <std::size_t kVectors>
 class SgmBand {
  public:
@@ -29,29 +28,13 @@ class SgmBand {
       : in_(input),
         p_(params),
         rows_(rows),
-        pitch_(pitch),
+        shape_{params.range.valid_begin, params.range.valid_end, pitch, pitch / hn::Lanes(Bytes())},
         width_(input.left.width),
         valid_(reversed_range(params.range, input.left.width, static_cast<int>(pitch))),
-        hamming_(rows_, width_, params.range.disparities, valid_),
-        path_(p_, rows_, hamming_, pitch) {
-    const auto clear = [](const auto& span) { std::fill(span.begin(), span.end(), 0); };
-    clear(rows_.right_codes);
-    clear(rows_.right_valid);
-    for (const auto& plane : rows_.right_planes)
-      clear(plane);
+        hamming_(rows_, width_, params.range.disparities, valid_) {
+    clear_rows();
     std::fill(rows_.right_valid.begin() + valid_.begin, rows_.right_valid.begin() + valid_.end, 255);
-    // A pixel of zeros is where a path starts: L = C. So are the margins, and the row above the first.
-    clear(rows_.sideways);
-    for (int path = 0; path < kMaxTopPaths; ++path) {
-      clear(rows_.above[path]);
-      clear(rows_.current[path]);
-      clear(rows_.above_least[path]);
-      clear(rows_.current_least[path]);
-      clear(rows_.top_penalty[path]);
-    }
-    clear(rows_.side_penalty);
-    clear(rows_.sums);
-    clear(rows_.right_winner);
+    std::fill(rows_.right_winner.begin(), rows_.right_winner.end(), kNoRightWinner);
     const auto disparities = static_cast<std::size_t>(params.range.disparities);
     std::fill(rows_.beyond.begin(), rows_.beyond.end(), 255);
     std::fill_n(rows_.beyond.begin(), disparities, 0);
@@ -61,33 +44,46 @@ class SgmBand {
   }
 
   void run(Rows span, ImageView<std::int16_t> disparity) {
-    const Rows d = in_.descriptor_rows;
-    load_distances(std::max(span.begin - 1, d.begin), rows_.hamming[0]);
+    const Rows described = in_.descriptor_rows;
+    load_distances(std::max(span.begin - 1, described.begin), rows_.hamming[0]);
     load_distances(span.begin, rows_.hamming[1]);
     for (int v = span.begin; v < span.end; ++v) {
       penalties(v, span.begin);
-      const bool last_row = v + 1 == d.end;
-      if (last_row) {
-        path_.template costs_and_leftward_path<false>(rows_.hamming[0].data(), rows_.hamming[1].data(),
-                                                      rows_.hamming[1].data());
-      } else {
-        load_codes(v + 1);
-        path_.template costs_and_leftward_path<true>(rows_.hamming[0].data(), rows_.hamming[1].data(),
-                                                     rows_.hamming[2].data());
-      }
-      std::rotate(rows_.hamming, rows_.hamming + 1, rows_.hamming + 3);
-      sums_and_disparities(v, disparity.row(v), v >= in_.rows.begin);
+      costs(v);
+      sums(v >= in_.rows.begin);
+      if (v >= in_.rows.begin) select(v, disparity.row(v));
     }
   }
 
  private:
+  // A pixel of zeros is where a path starts: L = C. So are the margins, and the row above the first. The right image's
+  // margins count as codes of 0 until their cost is replaced.
+  void clear_rows() {
+    const auto clear = [](const auto& span) { std::fill(span.begin(), span.end(), 0); };
+    clear(rows_.right_codes);
+    clear(rows_.right_valid);
+    for (const auto& plane : rows_.right_planes)
+      clear(plane);
+    for (int path = 0; path < (p_.paths == 5 ? kMaxTopPaths : 1); ++path) {
+      clear(rows_.above[path]);
+      clear(rows_.current[path]);
+      clear(rows_.above_least[path]);
+      clear(rows_.current_least[path]);
+      clear(rows_.top_penalty[path]);
+    }
+    clear(rows_.side_penalty);
+    clear(rows_.sums);
+    for (const auto& values : {rows_.winner, rows_.winner_sum, rows_.sum_before, rows_.sum_after, rows_.rivals})
+      clear(values);
+  }
+
   void load_codes(int v) const {
-    left_planes(in_.left.row(v), width_, rows_);
+    left_planes(in_.left.row(v), width_, rows_.left_planes.data());
     right_planes(in_.right.row(v), width_, p_.range.first, valid_, rows_);
   }
   void load_distances(int v, std::span<std::uint8_t> out) const {
     load_codes(v);
-    path_.distances(out.data());
+    hamming_distances<kVectors>(hamming_, shape_, out.data());
   }
 
   // P2 of row v's steps.
@@ -105,34 +101,42 @@ class SgmBand {
     jump_penalties(here + begin, above + begin + 1, end - begin - 1, p_, rows_.top_penalty[2].data() + begin);
   }
 
-  void sums_and_disparities(int v, std::int16_t* disparity, bool wanted) {
-    const std::uint8_t* textured = in_.textured.row(v);
-    std::int16_t* out = wanted ? disparity : nullptr;
-    if (p_.paths == 5) {
-      path_.template sums_and_winners<true>(textured, limits_, out);
-      for (int path = 1; path < kMaxTopPaths; ++path) {
-        std::swap(rows_.above[path], rows_.current[path]);
-        std::swap(rows_.above_least[path], rows_.current_least[path]);
-      }
+  void costs(int v) {
+    const std::uint8_t* above = rows_.hamming[0].data();
+    const std::uint8_t* here = rows_.hamming[1].data();
+    if (v + 1 == in_.descriptor_rows.end) {  // the last row stands in for the one below
+      costs_and_leftward_path<kVectors, false>(hamming_, shape_, rows_, p_, above, here, rows_.hamming[1].data());
     } else {
-      path_.template sums_and_winners<false>(textured, limits_, out);
+      load_codes(v + 1);
+      costs_and_leftward_path<kVectors, true>(hamming_, shape_, rows_, p_, above, here, rows_.hamming[2].data());
     }
-    if (!wanted) return;
+    std::rotate(rows_.hamming, rows_.hamming + 1, rows_.hamming + 3);
+  }
+
+  void sums(bool wanted) {
+    if (p_.paths == 5) {
+      sums_and_winners<kVectors, true>(shape_, rows_, p_, limits_, wanted);
+    } else {
+      sums_and_winners<kVectors, false>(shape_, rows_, p_, limits_, wanted);
+    }
+    std::swap_ranges(rows_.above, rows_.above + kMaxTopPaths, rows_.current);
+    std::swap_ranges(rows_.above_least, rows_.above_least + kMaxTopPaths, rows_.current_least);
+  }
+
+  void select(int v, std::int16_t* disparity) const {
     std::fill(disparity, disparity + p_.range.valid_begin, std::int16_t{kNotSearched});
     std::fill(disparity + p_.range.valid_end, disparity + width_, std::int16_t{kNotSearched});
-    if (p_.select.left_right_max < 0) return;
-    right_winners(p_, width_, pitch_, valid_, rows_);
-    left_right_check(p_, width_, rows_, disparity);
+    if (p_.select.left_right_max >= 0) right_winners(p_.range, width_, shape_.pitch, valid_, rows_);
+    Decide(p_, width_, rows_).row(in_.textured.row(v), disparity);
   }
 
   const SgmInput& in_;
   const SgmParams& p_;
   SgmSimdRows rows_;
-  std::size_t pitch_;
+  RowShape shape_;
   int width_;
   ReversedRange valid_;
   HammingRow hamming_;
-  PathRow<kVectors> path_;
   std::uint16_t limits_[256];
 };
 
@@ -140,11 +144,11 @@ void sgm_band(const SgmInput& input, const SgmParams& params, const SgmSimdRows&
               ImageView<std::int16_t> disparity) {
   const std::size_t lanes = hn::Lanes(Bytes());
   const auto disparities = static_cast<std::size_t>(params.range.disparities);
-  const std::size_t vectors = (disparities + lanes - 1) / lanes;
-  const std::size_t pitch = vectors * lanes;
-  if (vectors == 1) return SgmBand<1>(input, params, rows, pitch).run(span, disparity);
-  if (vectors == 2) return SgmBand<2>(input, params, rows, pitch).run(span, disparity);
-  if (vectors == 4) return SgmBand<4>(input, params, rows, pitch).run(span, disparity);
+  const std::size_t pitch = (disparities + lanes - 1) / lanes * lanes;
+  const std::size_t whole = pitch == disparities ? disparities / lanes : 0;
+  if (whole == 1) return SgmBand<1>(input, params, rows, pitch).run(span, disparity);
+  if (whole == 2) return SgmBand<2>(input, params, rows, pitch).run(span, disparity);
+  if (whole == 4) return SgmBand<4>(input, params, rows, pitch).run(span, disparity);
   SgmBand<0>(input, params, rows, pitch).run(span, disparity);
 }
 
@@ -163,8 +167,8 @@ std::size_t sgm_simd_scratch_bytes(int width, int disparities) {
   return layout.used();
 }
 
-Status sgm_simd(ImageView<const std::uint8_t> image, ImageView<const std::uint32_t> left,
-                ImageView<const std::uint32_t> right, ImageView<const std::uint8_t> textured, Rows descriptor_rows,
+Status sgm_simd(ImageView<const std::uint8_t> image, ImageView<const CensusCode> left,
+                ImageView<const CensusCode> right, ImageView<const std::uint8_t> textured, Rows descriptor_rows,
                 const SgmParams& params, Rows rows, std::span<std::byte> scratch,
                 ImageView<std::int16_t> disparity) {
   const SgmInput input{image, left, right, textured, descriptor_rows, rows};

@@ -1,8 +1,9 @@
 // The rows that sgm_simd keeps of one band, laid out in the caller's scratch.
 //
 // Candidates lie side by side, `pitch` bytes per pixel: the disparities, and up to the next whole vector the value 255,
-// which no minimum takes. The right image's codes lie in reverse, so that the candidates of pixel u are the bytes
-// from y = width - 1 - u on (of right pixel width - 1 - first - y), one load per vector.
+// which no minimum takes; a row has a pixel of margin on both sides. The right image's codes lie in reverse, so that the
+// candidates of pixel u are the bytes from y = width - 1 - u on (of right pixel width - 1 - first - y), one load per
+// vector.
 #pragma once
 
 #include <cstddef>
@@ -10,23 +11,23 @@
 #include <span>
 
 #include "kernels/base/scratch.h"
+#include "kernels/census/census.h"
 
 namespace lakshya {
 
 inline constexpr std::size_t kMaxVectorBytes = 64;
-inline constexpr int kMaxCodePlanes = 8;
+inline constexpr int kMaxCodePlanes = 4;  // a code is taken apart into planes of 4 or 8 bits
 inline constexpr int kMaxTopPaths = 3;
 
 struct SgmSimdRows {
-  std::span<std::uint32_t> left_planes[kMaxCodePlanes];  // one part of the code, in all four bytes
-  std::span<std::uint8_t> right_planes[kMaxCodePlanes];  // one part of the code, reversed
-  std::span<std::uint32_t> right_codes;                  // reversed
+  std::span<std::uint32_t> left_planes;                  // per pixel its planes, each in all four bytes of a word
+  std::span<std::uint8_t> right_planes[kMaxCodePlanes];  // reversed
+  std::span<CensusCode> right_codes;                     // reversed
   std::span<std::uint8_t> right_valid;                   // 255 where that right pixel has a descriptor, reversed
   std::span<std::uint8_t> hamming[3];                    // of the row above, this one and the one below
-  std::span<std::uint8_t> columns;                       // three rows of distances added up, of four pixels
   std::span<std::uint8_t> cost;                          // C of the row
   std::span<std::uint8_t> sideways;                   // L of the path from the right, then of the one from the left
-  std::span<std::uint8_t> above[kMaxTopPaths];        // L of the row above; the straight path's rows are one
+  std::span<std::uint8_t> above[kMaxTopPaths];        // L of the row above
   std::span<std::uint8_t> current[kMaxTopPaths];      // L of this row
   std::span<std::uint8_t> above_least[kMaxTopPaths];  // their least per pixel
   std::span<std::uint8_t> current_least[kMaxTopPaths];
@@ -35,8 +36,13 @@ struct SgmSimdRows {
   std::span<std::uint8_t> outside;                    // 255 before the candidates and after them, 0 for them
   std::span<std::uint8_t> side_penalty;               // P2 between pixels u - 1 and u
   std::span<std::uint8_t> top_penalty[kMaxTopPaths];  // P2 between pixel u and the path's pixel above
-  std::span<std::int16_t> winner;                     // candidate of a left pixel, negative where it is decided
-  std::span<std::int16_t> right_winner;               // left pixel that a right one matches best, reversed
+  // Of each left pixel: the winner, its S, those of its neighbours, and how many others are nearly as good.
+  std::span<std::int32_t> winner;
+  std::span<std::int32_t> winner_sum;
+  std::span<std::int32_t> sum_before;
+  std::span<std::int32_t> sum_after;
+  std::span<std::int32_t> rivals;
+  std::span<std::int32_t> right_winner;  // candidate that a right pixel matches best, reversed
 };
 
 inline SgmSimdRows lay_out_sgm_simd(int width, int disparities, ScratchLayout& scratch) {
@@ -44,33 +50,35 @@ inline SgmSimdRows lay_out_sgm_simd(int width, int disparities, ScratchLayout& s
   const auto columns = static_cast<std::size_t>(width);
   const std::size_t pitch =
       (static_cast<std::size_t>(disparities) + kMaxVectorBytes - 1) / kMaxVectorBytes * kMaxVectorBytes;
-  const std::size_t row = (columns + 2) * pitch + kMargin;  // a pixel of margin on both sides
+  const std::size_t row = (columns + 2) * pitch + kMargin;
   const std::size_t reversed = columns + pitch + kMargin;
   SgmSimdRows r;
-  for (auto& plane : r.left_planes)
-    plane = scratch.take<std::uint32_t>(columns + kMargin);
+  r.left_planes = scratch.take<std::uint32_t>(kMaxCodePlanes * columns + kMargin);
   for (auto& plane : r.right_planes)
     plane = scratch.take<std::uint8_t>(reversed);
-  r.right_codes = scratch.take<std::uint32_t>(reversed);
+  r.right_codes = scratch.take<CensusCode>(reversed);
   r.right_valid = scratch.take<std::uint8_t>(reversed);
   for (auto& distances : r.hamming)
     distances = scratch.take<std::uint8_t>(row);
-  r.columns = scratch.take<std::uint8_t>(4 * pitch);
   r.cost = scratch.take<std::uint8_t>(row);
   r.sideways = scratch.take<std::uint8_t>(row);
   for (int path = 0; path < kMaxTopPaths; ++path) {
     r.above[path] = scratch.take<std::uint8_t>(row);
-    r.current[path] = path == 0 ? r.above[0] : scratch.take<std::uint8_t>(row);
+    r.current[path] = scratch.take<std::uint8_t>(row);
     r.above_least[path] = scratch.take<std::uint8_t>(columns + 2);
-    r.current_least[path] = path == 0 ? r.above_least[0] : scratch.take<std::uint8_t>(columns + 2);
+    r.current_least[path] = scratch.take<std::uint8_t>(columns + 2);
     r.top_penalty[path] = scratch.take<std::uint8_t>(columns);
   }
   r.sums = scratch.take<std::uint8_t>(row);
   r.beyond = scratch.take<std::uint8_t>(pitch);
   r.outside = scratch.take<std::uint8_t>(pitch + kMargin);
   r.side_penalty = scratch.take<std::uint8_t>(columns + 1);
-  r.winner = scratch.take<std::int16_t>(columns);
-  r.right_winner = scratch.take<std::int16_t>(reversed);
+  r.winner = scratch.take<std::int32_t>(columns + kMargin);
+  r.winner_sum = scratch.take<std::int32_t>(columns + kMargin);
+  r.sum_before = scratch.take<std::int32_t>(columns + kMargin);
+  r.sum_after = scratch.take<std::int32_t>(columns + kMargin);
+  r.rivals = scratch.take<std::int32_t>(columns + kMargin);
+  r.right_winner = scratch.take<std::int32_t>(reversed + 2);
   return r;
 }
 

@@ -7,7 +7,7 @@ namespace {
 template <auto kCensus>
 void census_kernel(benchmark::State& state) {
   const auto image = bench::random_image<std::uint8_t>(0, 255);
-  Image<std::uint32_t> codes(bench::kWidth, bench::kHeight);
+  Image<CensusCode> codes(bench::kWidth, bench::kHeight);
   for (auto _ : state) {
     bench::require_ok(kCensus(image.view(), {0, bench::kHeight}, codes.view()));
     benchmark::DoNotOptimize(codes.view().data);

@@ -8,9 +8,9 @@ namespace {
 
 void hamming_reference(benchmark::State& state) {
   const int disparities = static_cast<int>(state.range(0));
-  const auto codes = bench::random_image<std::uint32_t>(0, 0x7FFFFFFF);
-  const std::span<const std::uint32_t> left(codes.view().row(0), bench::kWidth);
-  const std::span<const std::uint32_t> right(codes.view().row(1), bench::kWidth);
+  const auto codes = bench::random_image<CensusCode>(0, 0xFFFF);
+  const std::span<const CensusCode> left(codes.view().row(0), bench::kWidth);
+  const std::span<const CensusCode> right(codes.view().row(1), bench::kWidth);
   const SearchRange range{.first = 0, .disparities = disparities, .valid_begin = 4, .valid_end = bench::kWidth - 4};
   std::vector<std::uint8_t> cost(static_cast<std::size_t>(bench::kWidth * disparities));
   for (auto _ : state) {

@@ -8,8 +8,8 @@ namespace {
 
 void sgm_reference(benchmark::State& state) {
   const int disparities = static_cast<int>(state.range(0));
-  const auto left = bench::random_image<std::uint32_t>(0, 0x7FFFFFFF, 1);
-  const auto right = bench::random_image<std::uint32_t>(0, 0x7FFFFFFF, 2);
+  const auto left = bench::random_image<CensusCode>(0, 0xFFFF, 1);
+  const auto right = bench::random_image<CensusCode>(0, 0xFFFF, 2);
   const auto image = bench::random_image<std::uint8_t>(0, 255, 3);
   const Image<std::uint8_t> textured(bench::kWidth, bench::kHeight, 1);
   Image<std::int16_t> disparity(bench::kWidth, bench::kHeight);

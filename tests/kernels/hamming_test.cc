@@ -9,8 +9,8 @@ namespace lakshya {
 namespace {
 
 TEST(Hamming, HandComputedRow) {
-  const std::vector<std::uint32_t> left = {0b0000, 0b0001, 0b0011, 0b0111};
-  const std::vector<std::uint32_t> right = {0b0000, 0b1111, 0b0011, 0x7FFFFFFF};
+  const std::vector<CensusCode> left = {0b0000, 0b0001, 0b0011, 0b0111};
+  const std::vector<CensusCode> right = {0b0000, 0b1111, 0b0011, 0xFFFF};
   std::vector<std::uint8_t> cost(std::size_t{4} * 16, 99);
   ASSERT_EQ(hamming_row_ref(left, right, {.first = 0, .disparities = 16, .valid_begin = 0, .valid_end = 4}, cost),
             Status::ok);
@@ -21,7 +21,7 @@ TEST(Hamming, HandComputedRow) {
   EXPECT_EQ(at(0, 1), kOutsideCost);
   EXPECT_EQ(at(1, 0), 3);   // 0001 ^ 1111
   EXPECT_EQ(at(1, 1), 1);   // 0001 ^ 0000
-  EXPECT_EQ(at(3, 0), 28);  // 0111 ^ 31 ones
+  EXPECT_EQ(at(3, 0), 13);  // 0111 ^ 16 ones
   EXPECT_EQ(at(3, 1), 1);
   EXPECT_EQ(at(3, 2), 1);
   EXPECT_EQ(at(3, 3), 3);
@@ -30,8 +30,8 @@ TEST(Hamming, HandComputedRow) {
 }
 
 TEST(Hamming, NegativeFirstDisparityLooksToTheRight) {
-  const std::vector<std::uint32_t> left = {1, 1, 1};
-  const std::vector<std::uint32_t> right = {1, 3, 7};
+  const std::vector<CensusCode> left = {1, 1, 1};
+  const std::vector<CensusCode> right = {1, 3, 7};
   std::vector<std::uint8_t> cost(std::size_t{3} * 16);
   ASSERT_EQ(hamming_row_ref(left, right, {.first = -2, .disparities = 16, .valid_begin = 0, .valid_end = 3}, cost),
             Status::ok);
@@ -42,7 +42,7 @@ TEST(Hamming, NegativeFirstDisparityLooksToTheRight) {
 }
 
 TEST(Hamming, LeavesColumnsWithoutDescriptorsAlone) {
-  const std::vector<std::uint32_t> codes(10, 5);
+  const std::vector<CensusCode> codes(10, 5);
   std::vector<std::uint8_t> cost(std::size_t{10} * 16, 99);
   ASSERT_EQ(hamming_row_ref(codes, codes, {.first = 0, .disparities = 16, .valid_begin = 4, .valid_end = 6}, cost),
             Status::ok);
@@ -58,7 +58,7 @@ TEST(Hamming, LeavesColumnsWithoutDescriptorsAlone) {
 TEST(SmoothCost, HandComputedRow) {
   const SearchRange range{.first = 0, .disparities = 16, .valid_begin = 1, .valid_end = 4};
   const auto row = [](int a, int b, int c) {
-    std::vector<std::uint8_t> cost(std::size_t{16} * 5, 31);  // columns 0 and 4 are not valid
+    std::vector<std::uint8_t> cost(std::size_t{16} * 5, 16);  // columns 0 and 4 are not valid
     for (std::size_t i = 0; i < 16; ++i) {
       cost[16 + i] = static_cast<std::uint8_t>(a);
       cost[32 + i] = static_cast<std::uint8_t>(b);
@@ -67,19 +67,19 @@ TEST(SmoothCost, HandComputedRow) {
     return cost;
   };
   std::vector<std::uint8_t> out(std::size_t{16} * 5, 99);
-  ASSERT_EQ(smooth_cost_row_ref(row(0, 1, 2), row(3, 4, 5), row(6, 7, 31), range, out), Status::ok);
+  ASSERT_EQ(smooth_cost_row_ref(row(0, 1, 2), row(3, 4, 5), row(6, 7, 16), range, out), Status::ok);
   for (std::size_t i = 0; i < 16; ++i) {
     EXPECT_EQ(out[i], 99);
-    EXPECT_EQ(out[16 + i], (2 * (0 + 3 + 6) + (1 + 4 + 7) + 1) / 4);
-    EXPECT_EQ(out[32 + i], (0 + 1 + 2 + 3 + 4 + 5 + 6 + 7 + 31 + 1) / 4);
-    EXPECT_EQ(out[48 + i], ((1 + 4 + 7) + 2 * (2 + 5 + 31) + 1) / 4);
+    EXPECT_EQ(out[16 + i], (2 * (0 + 3 + 6) + (1 + 4 + 7) + 1) / 2);
+    EXPECT_EQ(out[32 + i], (0 + 1 + 2 + 3 + 4 + 5 + 6 + 7 + 16 + 1) / 2);
+    EXPECT_EQ(out[48 + i], ((1 + 4 + 7) + 2 * (2 + 5 + 16) + 1) / 2);
     EXPECT_EQ(out[64 + i], 99);
   }
 }
 
 TEST(SmoothCost, TheLargestFitsAndIsTheConstant) {
   const SearchRange range{.first = 0, .disparities = 16, .valid_begin = 0, .valid_end = 2};
-  const std::vector<std::uint8_t> worst(32, 31);
+  const std::vector<std::uint8_t> worst(32, 16);
   std::vector<std::uint8_t> out(32);
   ASSERT_EQ(smooth_cost_row_ref(worst, worst, worst, range, out), Status::ok);
   EXPECT_EQ(out, std::vector<std::uint8_t>(32, kMaxSmoothCost));
@@ -99,7 +99,7 @@ TEST(SmoothCost, RefusesWrongArguments) {
 }
 
 TEST(Hamming, RefusesWrongArguments) {
-  const std::vector<std::uint32_t> codes(8);
+  const std::vector<CensusCode> codes(8);
   std::vector<std::uint8_t> cost(std::size_t{8} * 16);
   EXPECT_EQ(hamming_row_ref(codes, codes, {.first = 0, .disparities = 8, .valid_begin = 0, .valid_end = 8}, cost),
             Status::bad_argument);

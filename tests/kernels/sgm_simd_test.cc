@@ -62,9 +62,9 @@ class SgmSimd : public testing::Test {
     p.select.left_right_max = one_of({-1, 0, 1, 3});
     p.select.offset16 = std::max(0, -16 * p.range.first) + between(0, 20);
     p.paths = one_of({3, 5});
-    p.p2_min = between(0, 184);
+    p.p2_min = between(0, 182);
     p.p1 = one_of({0, std::min(14, p.p2_min), p.p2_min});
-    p.p2 = between(p.p2_min, 184);
+    p.p2 = between(p.p2_min, 182);
     p.p2_slope = one_of({0, 1, 2, 30, 255});
     p.warmup_rows = between(0, 4);
     return t;
@@ -87,8 +87,8 @@ class SgmSimd : public testing::Test {
             static_cast<std::uint8_t>(std::min(left_.view().at(from, v) + between(0, noise), 255));
       }
     }
-    left_codes_ = PaddedImage<std::uint32_t>(t.width, t.height);
-    right_codes_ = PaddedImage<std::uint32_t>(t.width, t.height);
+    left_codes_ = PaddedImage<CensusCode>(t.width, t.height);
+    right_codes_ = PaddedImage<CensusCode>(t.width, t.height);
     ASSERT_EQ(census_ref(left_.view(), {0, t.height}, left_codes_.view()), Status::ok);
     ASSERT_EQ(census_ref(right_.view(), {0, t.height}, right_codes_.view()), Status::ok);
   }
@@ -105,7 +105,7 @@ class SgmSimd : public testing::Test {
 
   std::mt19937 random_{11};
   PaddedImage<std::uint8_t> left_{0, 0}, right_{0, 0}, textured_{0, 0};
-  PaddedImage<std::uint32_t> left_codes_{0, 0}, right_codes_{0, 0};
+  PaddedImage<CensusCode> left_codes_{0, 0}, right_codes_{0, 0};
 };
 
 TEST_F(SgmSimd, EqualsTheReference) {

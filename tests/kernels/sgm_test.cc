@@ -29,8 +29,8 @@ SgmParams params_for(int width, int disparities) {
 // explicit (dx, dy); costs straight from the codes.
 class NaiveSgm {
  public:
-  NaiveSgm(ImageView<const std::uint8_t> image, ImageView<const std::uint32_t> left,
-           ImageView<const std::uint32_t> right, const SgmParams& p)
+  NaiveSgm(ImageView<const std::uint8_t> image, ImageView<const CensusCode> left, ImageView<const CensusCode> right,
+           const SgmParams& p)
       : image_(image), left_(left), right_(right), p_(p) {}
 
   int winner(int u, int v) {
@@ -51,13 +51,13 @@ class NaiveSgm {
       for (int x = u - 1; x <= u + 1; ++x)
         sum += hamming(std::clamp(x, 0, left_.width - 1), std::clamp(y, 0, left_.height - 1), d);
     }
-    return (sum + 1) / 4;
+    return (sum + 1) / 2;
   }
 
   int hamming(int u, int v, int d) const {
     const int other = u - d - p_.range.first;
     if (other < p_.range.valid_begin || other >= p_.range.valid_end) return kOutsideCost;
-    return __builtin_popcount(left_.at(u, v) ^ right_.at(other, v));
+    return __builtin_popcount(static_cast<unsigned>(left_.at(u, v) ^ right_.at(other, v)));
   }
 
   int penalty(int u, int v, int dx, int dy) const {
@@ -94,15 +94,15 @@ class NaiveSgm {
   }
 
   ImageView<const std::uint8_t> image_;
-  ImageView<const std::uint32_t> left_;
-  ImageView<const std::uint32_t> right_;
+  ImageView<const CensusCode> left_;
+  ImageView<const CensusCode> right_;
   SgmParams p_;
 };
 
-void fill_codes(ImageView<std::uint32_t> image, std::mt19937& random) {
+void fill_codes(ImageView<CensusCode> image, std::mt19937& random) {
   for (int v = 0; v < image.height; ++v) {
     for (int u = 0; u < image.width; ++u)
-      image.at(u, v) = random() & 0x7FFFFFFFU;
+      image.at(u, v) = random() & 0xFFFFU;
   }
 }
 
@@ -111,8 +111,8 @@ TEST(Sgm, EqualsTheDefinitionOnRandomCodes) {
   for (const int paths : {3, 5}) {
     for (const int width : {1, 7, 21}) {
       constexpr int kHeight = 9;
-      PaddedImage<std::uint32_t> left(width, kHeight);
-      PaddedImage<std::uint32_t> right(width, kHeight);
+      PaddedImage<CensusCode> left(width, kHeight);
+      PaddedImage<CensusCode> right(width, kHeight);
       fill_codes(left.view(), random);
       fill_codes(right.view(), random);
       PaddedImage<std::uint8_t> image(width, kHeight);
@@ -160,8 +160,8 @@ TEST(Sgm, FindsAKnownShift) {
     for (int u = shift(v); u < kWidth; ++u)
       right.view().at(u - shift(v), v) = left.view().at(u, v);
   }
-  PaddedImage<std::uint32_t> census_left(kWidth, kHeight);
-  PaddedImage<std::uint32_t> census_right(kWidth, kHeight);
+  PaddedImage<CensusCode> census_left(kWidth, kHeight);
+  PaddedImage<CensusCode> census_right(kWidth, kHeight);
   ASSERT_EQ(census_ref(left.view(), {0, kHeight}, census_left.view()), Status::ok);
   ASSERT_EQ(census_ref(right.view(), {0, kHeight}, census_right.view()), Status::ok);
   const PaddedImage<std::uint8_t> textured(kWidth, kHeight, 3, 1);
@@ -192,8 +192,8 @@ TEST(Sgm, BandsWithEnoughWarmUpEqualTheWholeAndTheResultDoesNotDependOnOtherBand
   std::mt19937 random(7);
   PaddedImage<std::uint8_t> image(kWidth, kHeight);
   test::fill_random(image.view(), random, 0, 255);
-  PaddedImage<std::uint32_t> left(kWidth, kHeight);
-  PaddedImage<std::uint32_t> right(kWidth, kHeight);
+  PaddedImage<CensusCode> left(kWidth, kHeight);
+  PaddedImage<CensusCode> right(kWidth, kHeight);
   fill_codes(left.view(), random);
   fill_codes(right.view(), random);
   const PaddedImage<std::uint8_t> textured(kWidth, kHeight, 3, 1);
@@ -222,7 +222,7 @@ TEST(Sgm, ScratchDoesNotGrowWithTheImageAndIsNotOverrun) {
   const std::size_t bytes = sgm_scratch_bytes(kWidth, 16);
   EXPECT_LT(bytes, std::size_t{17 * 16 * 13 + 2048});
   std::mt19937 random(8);
-  PaddedImage<std::uint32_t> codes(kWidth, 200);
+  PaddedImage<CensusCode> codes(kWidth, 200);
   fill_codes(codes.view(), random);
   const PaddedImage<std::uint8_t> image(kWidth, 200);
   const PaddedImage<std::uint8_t> textured(kWidth, 200, 3, 1);
@@ -238,7 +238,7 @@ TEST(Sgm, ScratchDoesNotGrowWithTheImageAndIsNotOverrun) {
 }
 
 TEST(Sgm, RefusesWrongArguments) {
-  PaddedImage<std::uint32_t> codes(20, 10);
+  PaddedImage<CensusCode> codes(20, 10);
   PaddedImage<std::uint8_t> image(20, 10);
   PaddedImage<std::uint8_t> textured(20, 10);
   PaddedImage<std::int16_t> out(20, 10);

@@ -24,13 +24,15 @@ namespace lakshya::test {
 
 // What the two differ in.
 struct CensusBlock {
-  using Descriptor = std::uint32_t;
+  using Descriptor = CensusCode;
   static constexpr auto kMatch = census_block_ref;
   static constexpr auto kDescribe = census_ref;
   static constexpr int kRadiusU = kCensusRadiusU;
   static constexpr int kRadiusV = kCensusRadiusV;
-  static Descriptor random_value(std::mt19937& random, int /*edge_cap*/) { return random() & 0x7FFFFFFFU; }
-  static int cost(Descriptor a, Descriptor b) { return std::popcount(a ^ b); }
+  static Descriptor random_value(std::mt19937& random, int /*edge_cap*/) {
+    return static_cast<Descriptor>(random() & 0xFFFFU);
+  }
+  static int cost(Descriptor a, Descriptor b) { return std::popcount(static_cast<Descriptor>(a ^ b)); }
   static int outside(int /*edge_cap*/) { return kOutsideCost; }
 };
 
