@@ -90,7 +90,8 @@ void process(const ProcessOptions& o) {
   const int width = input.left.width();
   const int height = input.left.height();
   const MonotonicClock clock;
-  Pipeline pipeline(config, input.calibration, width, height, choose_kernels(o.kernels), clock);
+  const KernelTable kernels = choose_kernels(o.kernels);  // the pipeline keeps a reference to it
+  Pipeline pipeline(config, input.calibration, width, height, kernels, clock);
 
   spdlog::info("{}x{}, {} disparities: kernels {} on {}", width, height, config.matcher.disparities,
                o.kernels.backend, active_isa());
