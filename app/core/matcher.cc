@@ -30,16 +30,22 @@ SearchRange search_range(const MatcherConfig& c, double doffs, int width) {
           .valid_end = std::max(width - border, border)};
 }
 
+}  // namespace
+
 Rows descriptor_rows(const MatcherConfig& c, int height) {
   const int border = std::min(border_of(c).v, height);
   return {border, std::max(height - border, border)};
 }
+
+namespace {
 
 SelectParams select_params(const MatcherConfig& c, double doffs) {
   return {.uniqueness_percent = c.name == "sgm" ? c.uniqueness_percent : c.window_uniqueness_percent,
           .left_right_max = c.left_right_max_px,
           .offset16 = stored_range(c.min_disparity, doffs).offset16};
 }
+
+}  // namespace
 
 SgmParams sgm_params(const MatcherConfig& c, double doffs, int width) {
   SgmParams p;
@@ -67,6 +73,8 @@ SupportParams support_params(const MatcherConfig& c) {
           .min_percent = c.name == "sgm" ? c.support_min_percent : c.window_support_min_percent,
           .max_difference = c.support_max_difference};
 }
+
+namespace {
 
 int code(Status s) {
   return static_cast<int>(s);

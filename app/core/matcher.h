@@ -21,6 +21,12 @@ struct StoredRange {
 };
 StoredRange stored_range(int min_disparity, double doffs);
 
+// What the kernels are given for a configuration's matcher; `lakshya compare` calls them with the same.
+Rows descriptor_rows(const MatcherConfig& config, int height);
+SgmParams sgm_params(const MatcherConfig& config, double doffs, int width);
+BlockParams block_params(const MatcherConfig& config, double doffs, int width);
+SupportParams support_params(const MatcherConfig& config);
+
 class Matcher {
  public:
   // Takes what it needs from the arena; call once to measure and once for real (see arena.h).

@@ -6,6 +6,7 @@
 
 #include "app/core/input_error.h"
 #include "app/tools/accuracy_command.h"
+#include "app/tools/compare_command.h"
 #include "app/tools/config_command.h"
 #include "app/tools/eval_command.h"
 #include "app/tools/plan_command.h"
@@ -22,15 +23,20 @@ int run(int argc, char** argv) {
   app.name("lakshya");
   app.set_version_flag("--version", "lakshya " LAKSHYA_VERSION);
   app.require_subcommand(1);
-  app.footer("Exit code: 0 done, 1 input refused, 2 wrong usage.\nHelp on one command: lakshya COMMAND --help");
+  app.footer(
+      "Exit code: 0 done, 1 input refused or (compare) results differ, 2 wrong usage.\n"
+      "Help on one command: lakshya COMMAND --help");
   lakshya::add_process_command(app);
   lakshya::add_plan_command(app);
   lakshya::add_eval_command(app);
   lakshya::add_accuracy_command(app);
+  lakshya::add_compare_command(app);
   lakshya::add_config_command(app);
   try {
     app.parse(argc, argv);
     return kOk;
+  } catch (const CLI::RuntimeError& e) {  // a command's own verdict: compare
+    return e.get_exit_code();
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? kOk : kUsage;
   } catch (const lakshya::InputError& e) {
