@@ -156,20 +156,27 @@ Status Matcher::match_band(int index, const ImageView<const std::uint8_t>& left)
 }
 
 Status Matcher::match(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
-                      ImageView<const std::int16_t>& disparity) {
+                      ImageView<const std::int16_t>& disparity, const Clock* clock, MatchTimes* times) {
+  const auto mark = [&](std::size_t pass) {
+    if (clock != nullptr) times->at[pass] = clock->now();
+  };
   int worst = code(Status::ok);
+  mark(0);
   // Three passes, because a band reads its neighbours' descriptors (warm-up rows, window) and disparities (support window).
 #pragma omp parallel for schedule(dynamic) reduction(max : worst)
   for (int b = 0; b < bands_; ++b) {
     worst = std::max({worst, code(describe_band(b, left, left_)), code(describe_band(b, right, right_))});
   }
+  mark(1);
 #pragma omp parallel for schedule(dynamic) reduction(max : worst)
   for (int b = 0; b < bands_; ++b)
     worst = std::max(worst, code(match_band(b, left)));
+  mark(2);
 #pragma omp parallel for schedule(dynamic) reduction(max : worst)
   for (int b = 0; b < bands_; ++b) {
     worst = std::max(worst, code(kernels_->support(matched_, support_, band(b), supported_)));
   }
+  mark(3);
   disparity = supported_;
   return static_cast<Status>(worst);
 }

@@ -9,6 +9,7 @@
 
 #include "app/core/arena.h"
 #include "app/core/kernel_table.h"
+#include "app/core/stage_times.h"
 #include "app/core/vehicle_config.h"
 
 namespace lakshya {
@@ -34,9 +35,10 @@ class Matcher {
           Arena& arena);
 
   // left, right: rectified, of the size given above. The result stays valid until the next call.
-  // Bands run on OpenMP's threads; the result does not depend on how many there are.
+  // Bands run on OpenMP's threads; the result does not depend on how many there are. With a clock, `times` gets when
+  // each pass began.
   Status match(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
-               ImageView<const std::int16_t>& disparity);
+               ImageView<const std::int16_t>& disparity, const Clock* clock = nullptr, MatchTimes* times = nullptr);
 
  private:
   enum class Method { sgm, census, sad };

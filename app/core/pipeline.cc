@@ -35,18 +35,14 @@ void require(Status status, const char* what) {
 // Runs `step`, stores how long it took, and passes its status on.
 template <class Step>
 Status timed(const Clock& clock, Stage stage, FrameResult& result, Step&& step) {
-  const Nanoseconds start = clock.now();
+  const auto i = static_cast<std::size_t>(stage);
+  result.times.begin[i] = clock.now();
   const Status status = step();
-  result.stage_time[size(static_cast<int>(stage))] = clock.now() - start;
+  result.times.took[i] = clock.now() - result.times.begin[i];
   return status;
 }
 
 }  // namespace
-
-const char* to_string(Stage stage) {
-  constexpr const char* kNames[kStages] = {"rectify", "match", "ground", "project_and_bin", "score", "plan"};
-  return kNames[static_cast<int>(stage)];
-}
 
 Pipeline::Buffers::Buffers(const VehicleConfig& config, const RectifiedGeometry& camera, const KernelTable& kernels,
                            Arena& arena)
@@ -212,8 +208,9 @@ Status Pipeline::process(ImageView<const std::uint8_t> left, ImageView<const std
   result.plan = {};  // blocked: a frame that fails leaves no old command behind
   Status status = timed(*clock_, Stage::rectify, result, [&] { return rectify(left, right, result); });
   if (status != Status::ok) return status;
-  status = timed(*clock_, Stage::match, result,
-                 [&] { return buffers_->matcher.match(result.left, result.right, result.disparity); });
+  status = timed(*clock_, Stage::match, result, [&] {
+    return buffers_->matcher.match(result.left, result.right, result.disparity, clock_, &result.times.match);
+  });
   if (status != Status::ok) return status;
   status = timed(*clock_, Stage::ground, result, [&] { return find_ground(result); });
   if (status != Status::ok) return status;
@@ -222,8 +219,10 @@ Status Pipeline::process(ImageView<const std::uint8_t> left, ImageView<const std
   status = timed(*clock_, Stage::score, result,
                  [&] { return kernels_->score(buffers_->thresholds, min_height_mm_, result.grid); });
   if (status != Status::ok) return status;
-  return timed(*clock_, Stage::plan, result,
-               [&] { return planner_.plan(result.grid.type, input, plan_state_, result.plan); });
+  status = timed(*clock_, Stage::plan, result,
+                 [&] { return planner_.plan(result.grid.type, input, plan_state_, result.plan); });
+  if (status == Status::ok) times_.add(result.times);
+  return status;
 }
 
 }  // namespace lakshya

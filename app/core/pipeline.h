@@ -13,15 +13,12 @@
 #include "app/core/kernel_table.h"
 #include "app/core/matcher.h"
 #include "app/core/rectification.h"
+#include "app/core/stage_times.h"
 #include "app/core/vehicle_config.h"
 #include "app/nav/planner.h"
 #include "hal/clock.h"
 
 namespace lakshya {
-
-enum class Stage : std::uint8_t { rectify, match, ground, project_and_bin, score, plan };
-inline constexpr int kStages = 6;
-const char* to_string(Stage stage);
 
 // What one frame gave. Views stay valid until the next process() of the same pipeline.
 struct FrameResult {
@@ -33,7 +30,7 @@ struct FrameResult {
   PixelCounts pixels;
   NavGrid grid;
   Plan plan;
-  std::array<Nanoseconds, kStages> stage_time{};
+  FrameTimes times;
 };
 
 class Pipeline {
@@ -52,6 +49,9 @@ class Pipeline {
   const PruneModel& prune_model() const { return prune_model_; }
   double blind_zone() const { return blind_zone_m_; }
   std::size_t arena_bytes() const { return arena_.used(); }
+  // Of all frames that were processed to the end, or of those since clear_times().
+  const StageTimes& times() const { return times_; }
+  void clear_times() { times_ = {}; }
 
  private:
   // What lives in the arena, in the order in which it is taken.
@@ -93,6 +93,7 @@ class Pipeline {
   std::optional<std::int32_t> ground_offset16_;  // of the last frame
   Planner planner_;
   PlanState plan_state_;
+  StageTimes times_;
 };
 
 }  // namespace lakshya

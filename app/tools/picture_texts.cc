@@ -37,14 +37,14 @@ std::string stage_name(int stage) {
 
 void draw_stage_times(Canvas& sheet, const Box& box, const FrameResult& frame) {
   double total = 0;
-  for (const Nanoseconds time : frame.stage_time)
+  for (const Nanoseconds time : frame.times.took)
     total += milliseconds(time);
   sheet.text({static_cast<double>(box.x), box.y + kHeadText}, "Time: " + decimal(total, 1) + " ms", kHeadText,
              kInk);
   const int bar_left = box.x + kNameWidth;
   const int bar_width = box.width - kNameWidth - 110;
   for (int stage = 0; stage < kStages; ++stage) {
-    const double time = milliseconds(frame.stage_time[static_cast<std::size_t>(stage)]);
+    const double time = milliseconds(frame.times.took[static_cast<std::size_t>(stage)]);
     const int y = box.y + 26 + stage * kFactRow;
     const double baseline = y + (kFactRow + kBodyText) / 2;
     sheet.text({static_cast<double>(box.x), baseline}, stage_name(stage), kBodyText, kFaintInk);

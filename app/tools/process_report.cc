@@ -20,7 +20,7 @@ double milliseconds(Nanoseconds t) {
 }
 
 double total_milliseconds(const FrameResult& frame) {
-  return milliseconds(std::accumulate(frame.stage_time.begin(), frame.stage_time.end(), Nanoseconds{0}));
+  return milliseconds(std::accumulate(frame.times.took.begin(), frame.times.took.end(), Nanoseconds{0}));
 }
 
 double micro(double ms) {
@@ -66,7 +66,7 @@ nlohmann::ordered_json frame_json(const FrameResult& frame, const PlannerParams&
   json["cells"] = named(kCellNames, count_cells(frame.grid));
   nlohmann::ordered_json times;
   for (int i = 0; i < kStages; ++i) {
-    times[to_string(static_cast<Stage>(i))] = micro(milliseconds(frame.stage_time[static_cast<std::size_t>(i)]));
+    times[to_string(static_cast<Stage>(i))] = micro(milliseconds(frame.times.took[static_cast<std::size_t>(i)]));
   }
   times["total"] = micro(total_milliseconds(frame));
   json["time_ms"] = times;
@@ -82,7 +82,7 @@ std::string frame_text(const FrameResult& frame) {
   out << "time\n";
   for (int i = 0; i < kStages; ++i) {
     out << "  " << std::left << std::setw(18) << to_string(static_cast<Stage>(i)) << std::right << std::setw(9)
-        << milliseconds(frame.stage_time[static_cast<std::size_t>(i)]) << " ms\n";
+        << milliseconds(frame.times.took[static_cast<std::size_t>(i)]) << " ms\n";
   }
   out << "  " << std::left << std::setw(18) << "total" << std::right << std::setw(9) << total_milliseconds(frame)
       << " ms\n";

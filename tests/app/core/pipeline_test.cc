@@ -125,7 +125,7 @@ TEST_F(PipelineTest, CountsEveryPixelOnce) {
   EXPECT_LE(reasons, f.pixels.by_class[static_cast<int>(PixelClass::no_disparity)]);
   EXPECT_GT(f.pixels.by_class[static_cast<int>(PixelClass::obstacle)], 1000U);
   EXPECT_GT(f.pixels.by_class[static_cast<int>(PixelClass::floor)], 5000U);
-  for (const Nanoseconds t : f.stage_time)
+  for (const Nanoseconds t : f.times.took)
     EXPECT_GE(t, 0);
 }
 

@@ -443,7 +443,7 @@ TEST(Sheets, ExtremesOfTheConfiguration) {
   scene.config.planner.threshold_low = 100'000;
   scene.config.planner.threshold_high = 100'000;
   scene.frame.plan.histogram.fill(4'000'000'000U);
-  scene.frame.stage_time.fill(1'000'000'000'000);
+  scene.frame.times.took.fill(1'000'000'000'000);
   expect_sheets_sound(scene, "large");
   scene.config.planner.active_radius_m = 0.5;
   scene.config.vehicle.radius_m = 0.05;
