@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "app/core/calibration_file.h"
-#include "app/core/frame_folder.h"
 #include "app/core/image_file.h"
 #include "app/core/input_error.h"
 
@@ -32,31 +31,39 @@ bool is_folder(const std::string& path) {
   return std::filesystem::is_directory(path, ignored);
 }
 
+PairPaths paths_of(const FrameFolder& frames, int n) {
+  return {frames.left(n), frames.right(n), frames.timestamp_ns(n)};
+}
+
 PairPaths frame_of(const FrameFolder& frames, const Options& o) {
-  if (!frames.skipped().empty()) {
-    spdlog::warn("{} frames lack their partner; the first: {}", frames.skipped().size(), frames.skipped().front());
-  }
   if (!o.frame) {
     throw InputError(o.sequence.empty() ? o.left : o.sequence, "frame: holds " + std::to_string(frames.count()) +
                                                                    " frames (choose one with --frame 0 to " +
                                                                    std::to_string(frames.count() - 1) + ")");
   }
-  const int n = *o.frame;
-  PairPaths paths{frames.left(n), frames.right(n), frames.timestamp_ns(n)};
-  spdlog::info("frame {} of {}: {}", n, frames.count(), paths.left);
+  PairPaths paths = paths_of(frames, *o.frame);
+  spdlog::info("frame {} of {}: {}", *o.frame, frames.count(), paths.left);
   return paths;
 }
 
-PairPaths find_pair(const Options& o) {
-  if (!o.sequence.empty()) return frame_of(FrameFolder::open_sequence(o.sequence, asked_cameras(o)), o);
+FrameFolder with_warning(FrameFolder frames) {
+  if (!frames.skipped().empty()) {
+    spdlog::warn("{} frames lack their partner; the first: {}", frames.skipped().size(), frames.skipped().front());
+  }
+  return frames;
+}
+
+// Empty where the options name two images.
+std::optional<FrameFolder> open_frames(const Options& o) {
+  if (!o.sequence.empty()) return with_warning(FrameFolder::open_sequence(o.sequence, asked_cameras(o)));
   if (o.left.empty()) throw CLI::RequiredError("A stereo pair (--left --right --calib, or --sequence --frame)");
-  if (is_folder(o.left) && is_folder(o.right)) return frame_of(FrameFolder::open_pair(o.left, o.right), o);
+  if (is_folder(o.left) && is_folder(o.right)) return with_warning(FrameFolder::open_pair(o.left, o.right));
   if (is_folder(o.left) || is_folder(o.right)) {
     throw InputError(is_folder(o.left) ? o.left : o.right,
                      "image: is a folder, but the other side is not (give two images or two folders)");
   }
   if (o.frame) throw InputError(o.left, "frame: not a folder of frames (leave --frame out, or give folders)");
-  return {o.left, o.right, {}};
+  return {};
 }
 
 // The images' folders say which of KITTI's cameras they are, unless the options do.
@@ -69,6 +76,23 @@ StereoCalibration read_calibration_of(const Options& o, const PairPaths& paths, 
 
 std::string size_text(const Image<std::uint8_t>& image) {
   return std::to_string(image.width()) + "x" + std::to_string(image.height());
+}
+
+StereoInput read_pair(const PairPaths& paths, const StereoCalibration& calibration) {
+  StereoInput input;
+  input.calibration = calibration;
+  input.left = read_gray(paths.left);
+  input.right = read_gray(paths.right);
+  input.left_path = paths.left;
+  input.right_path = paths.right;
+  input.timestamp_ns = paths.timestamp_ns;
+  require_image_size(input.calibration, input.left.width(), input.left.height(), paths.left);
+  require_image_size(input.calibration, input.right.width(), input.right.height(), paths.right);
+  if (!same_size(input.left.view(), input.right.view())) {
+    throw InputError(paths.right, "size " + size_text(input.right) + " differs from the left image's " +
+                                      size_text(input.left) + " (give both images of one pair)");
+  }
+  return input;
 }
 
 }  // namespace
@@ -101,21 +125,20 @@ void add_stereo_input_options(CLI::App& command, StereoInputOptions& o) {
 }
 
 StereoInput read_stereo_input(const StereoInputOptions& o, double opencv_unit_m) {
-  const PairPaths paths = find_pair(o);
-  StereoInput input;
-  input.calibration = read_calibration_of(o, paths, opencv_unit_m);
-  input.left = read_gray(paths.left);
-  input.right = read_gray(paths.right);
-  input.left_path = paths.left;
-  input.right_path = paths.right;
-  input.timestamp_ns = paths.timestamp_ns;
-  require_image_size(input.calibration, input.left.width(), input.left.height(), paths.left);
-  require_image_size(input.calibration, input.right.width(), input.right.height(), paths.right);
-  if (!same_size(input.left.view(), input.right.view())) {
-    throw InputError(paths.right, "size " + size_text(input.right) + " differs from the left image's " +
-                                      size_text(input.left) + " (give both images of one pair)");
-  }
-  return input;
+  const std::optional<FrameFolder> frames = open_frames(o);
+  const PairPaths paths = frames ? frame_of(*frames, o) : PairPaths{o.left, o.right, {}};
+  return read_pair(paths, read_calibration_of(o, paths, opencv_unit_m));
+}
+
+StereoFrames::StereoFrames(const StereoInputOptions& o, double opencv_unit_m)
+    : left_(o.left), right_(o.right), frames_(open_frames(o)), first_(o.frame.value_or(0)) {
+  const PairPaths paths = frames_ ? paths_of(*frames_, first_) : PairPaths{o.left, o.right, {}};
+  calibration_ = read_calibration_of(o, paths, opencv_unit_m);
+}
+
+StereoInput StereoFrames::read(int n) const {
+  if (!frames_) return read_pair({left_, right_, {}}, calibration_);
+  return read_pair(paths_of(*frames_, (first_ + n) % frames_->count()), calibration_);
 }
 
 }  // namespace lakshya

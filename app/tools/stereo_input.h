@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/core/calibration.h"
+#include "app/core/frame_folder.h"
 #include "app/core/image.h"
 
 namespace lakshya {
@@ -36,5 +37,22 @@ struct StereoInput {
 // Both images have one size, which is the calibration's. Throws InputError for what cannot be read or does not go
 // together, CLI::ParseError where the options do not say which pair.
 StereoInput read_stereo_input(const StereoInputOptions& options, double opencv_unit_m);
+
+// One pair after the other, for commands that want many: of a folder or sequence the frames in turn, from --frame (or the
+// first) on and after the last again from the first; of two images the same pair again and again.
+class StereoFrames {
+ public:
+  // Throws as read_stereo_input() does.
+  StereoFrames(const StereoInputOptions& options, double opencv_unit_m);
+
+  bool is_single() const { return !frames_; }
+  StereoInput read(int n) const;
+
+ private:
+  std::string left_, right_;
+  std::optional<FrameFolder> frames_;
+  int first_;
+  StereoCalibration calibration_;
+};
 
 }  // namespace lakshya
