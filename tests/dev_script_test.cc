@@ -91,8 +91,8 @@ class DevScript : public testing::Test {
 TEST_F(DevScript, HelpNamesEveryCommand) {
   const Result help = dev("help");
   EXPECT_EQ(help.status, 0);
-  for (const char* command :
-       {"demo", "test", "build", "paper", "accuracy", "compare", "bench", "fuzz", "data", "format", "tidy", "deps"}) {
+  for (const char* command : {"demo", "test", "build", "paper", "accuracy", "compare", "bench", "fuzz", "data",
+                              "format", "tidy", "deps"}) {
     EXPECT_TRUE(contains(help.output, std::string("\n  ") + command)) << command;
   }
   EXPECT_EQ(dev("").output, help.output);
@@ -166,11 +166,12 @@ TEST_F(DevScript, ComparesTheDemoPairAndTheDataAndFailsWhenOneDiffers) {
   if (!is_debian_12()) GTEST_SKIP() << "only Debian 12 is set up by the script";
   const fs::path lakshya = folder_ / "build/host/app/tools/lakshya";
   fs::create_directories(lakshya.parent_path());
-  std::ofstream(lakshya) << "#!/bin/sh\necho lakshya \"$@\"\nif [ \"$3\" = perf/compare_demo.json ]; then exit 1; fi\n";
+  std::ofstream(lakshya)
+      << "#!/bin/sh\necho lakshya \"$@\"\nif [ \"$3\" = perf/compare_demo.json ]; then exit 1; fi\n";
   fs::permissions(lakshya, fs::perms::owner_all);
   stand_in("cmake", "echo cmake \"$@\"");
-  for (const char* file : {"aloeL.jpg", "aloeR.jpg", "aloeGT.png", "intrinsics.yml", "left_intrinsics.yml",
-                           "stereo_calib.xml"})
+  for (const char* file :
+       {"aloeL.jpg", "aloeR.jpg", "aloeGT.png", "intrinsics.yml", "left_intrinsics.yml", "stereo_calib.xml"})
     add_file(std::string("data/opencv-doc/") + file);
   for (int view = 1; view <= 14; ++view) {
     const std::string number = (view < 10 ? "0" : "") + std::to_string(view) + ".jpg";
@@ -179,11 +180,13 @@ TEST_F(DevScript, ComparesTheDemoPairAndTheDataAndFailsWhenOneDiffers) {
   }
   const Result all = dev("compare --isa avx2", "LAKSHYA_DATA=/some/data");
   EXPECT_EQ(all.status, 1);
-  EXPECT_TRUE(contains(all.output, "--pairs perf/compare_demo.json --data . --config boards/demo/vehicle.yaml --isa "
-                                   "avx2\n"))
+  EXPECT_TRUE(contains(all.output,
+                       "--pairs perf/compare_demo.json --data . --config boards/demo/vehicle.yaml --isa "
+                       "avx2\n"))
       << all.output;
-  EXPECT_TRUE(contains(all.output, "--pairs perf/accuracy_pairs.json --pairs perf/compare_pairs.json --data /some/data "
-                                   "--isa avx2\n"))
+  EXPECT_TRUE(contains(all.output,
+                       "--pairs perf/accuracy_pairs.json --pairs perf/compare_pairs.json --data /some/data "
+                       "--isa avx2\n"))
       << all.output;
   EXPECT_TRUE(contains(dev("compare", "LAKSHYA_DATA=").output, "only the demo pair was compared\n"));
 }

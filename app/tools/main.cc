@@ -11,6 +11,7 @@
 #include "app/tools/eval_command.h"
 #include "app/tools/plan_command.h"
 #include "app/tools/process_command.h"
+#include "app/tools/profile_command.h"
 
 namespace {
 
@@ -31,6 +32,7 @@ int run(int argc, char** argv) {
   lakshya::add_eval_command(app);
   lakshya::add_accuracy_command(app);
   lakshya::add_compare_command(app);
+  lakshya::add_profile_command(app);
   lakshya::add_config_command(app);
   try {
     app.parse(argc, argv);
