@@ -1,5 +1,7 @@
 #include "app/tools/compare_command.h"
 
+#include <spdlog/spdlog.h>
+
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -60,6 +62,7 @@ bool compare_one(const CompareOptions& o) {
 
 // One line per pair, as each is done.
 bool compare_lists(const CompareOptions& o) {
+  spdlog::set_level(spdlog::level::warn);  // the lines say which pair it is
   bool equal = true;
   Json all = Json::array();
   for (const std::string& list : o.lists) {
