@@ -13,7 +13,7 @@ namespace lakshya {
 // Names, best first: avx3_dl, avx3, avx2, sse4; neon; sve2, sve. Compiled in, and this machine has them.
 std::span<const char* const> available_isas();
 
-// The one that kernels use now.
+// The one that kernels use now, asked by the call that kernels make.
 const char* active_isa();
 
 // From now on, in the whole process; not while a kernel runs. "best" (the state at start), a name of available_isas(),

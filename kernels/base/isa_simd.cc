@@ -1,12 +1,32 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/base/isa_simd.cc"
+#include "hwy/foreach_target.h"
+// foreach_target.h comes first, whatever the alphabet says.
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
-#include "hwy/targets.h"
+#include "hwy/highway.h"
 #include "kernels/base/isa.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace lakshya {
+namespace HWY_NAMESPACE {
+
+// What this copy of the code was compiled for.
+std::int64_t compiled_for() {
+  return HWY_TARGET;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace lakshya
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace lakshya {
 namespace {
+
+HWY_EXPORT(compiled_for);
 
 struct NamedTarget {
   const char* name;
@@ -44,11 +64,6 @@ const Available& available() {
   return found;
 }
 
-std::size_t& active_index() {
-  static std::size_t index = 0;
-  return index;
-}
-
 void choose([[maybe_unused]] std::int64_t target) {
 #if (HWY_TARGETS & (HWY_TARGETS - 1)) != 0
   hwy::GetChosenTarget().Update(target);
@@ -62,7 +77,11 @@ std::span<const char* const> available_isas() {
 }
 
 const char* active_isa() {
-  return available().count > 0 ? available().names[active_index()] : "none";
+  const std::int64_t active = HWY_DYNAMIC_DISPATCH(compiled_for)();
+  for (const NamedTarget& t : kTargets) {
+    if ((active & t.target) != 0) return t.name;
+  }
+  return "none";
 }
 
 Status use_isa(std::string_view name) {
@@ -71,10 +90,10 @@ Status use_isa(std::string_view name) {
   for (std::size_t i = 0; i < a.count; ++i) {
     if (wanted != "best" && wanted != a.names[i]) continue;
     choose(a.targets[i]);
-    active_index() = i;
     return Status::ok;
   }
   return Status::bad_argument;
 }
 
 }  // namespace lakshya
+#endif
