@@ -91,8 +91,8 @@ class DevScript : public testing::Test {
 TEST_F(DevScript, HelpNamesEveryCommand) {
   const Result help = dev("help");
   EXPECT_EQ(help.status, 0);
-  for (const char* command : {"demo", "test", "build", "paper", "accuracy", "compare", "bench", "fuzz", "data",
-                              "format", "tidy", "deps"}) {
+  for (const char* command : {"demo", "test", "test-arm", "build", "paper", "accuracy", "compare", "bench", "fuzz",
+                              "data", "format", "tidy", "deps"}) {
     EXPECT_TRUE(contains(help.output, std::string("\n  ") + command)) << command;
   }
   EXPECT_EQ(dev("").output, help.output);
@@ -128,6 +128,32 @@ TEST_F(DevScript, BuildsAndRunsOnlyTheModule) {
   const Result two = dev("test census");
   EXPECT_TRUE(contains(two.output, "--target app_core_census_test kernels_census_test\n")) << two.output;
   EXPECT_TRUE(contains(two.output, "--tests-regex ^(app\\.core\\.census|kernels\\.census)$\n")) << two.output;
+}
+
+TEST_F(DevScript, TestsKernelsOnArmWithEveryVectorLength) {
+  add_file("tests/kernels/census_test.cc");
+  add_file("tests/kernels/sgm_test.cc");
+  add_file("tests/app/core/sgm_test.cc");
+  add_file("tests/app/core/pipeline_test.cc");
+  stand_in("cmake", "echo cmake \"$@\"");
+  stand_in("ctest", "echo \"${QEMU_CPU:-} ${LAKSHYA_EXPECT_VECTOR_BITS:-} ctest $*\"");
+  if (!is_debian_12()) GTEST_SKIP() << "only Debian 12 is set up by the script";
+  const Result all = dev("test-arm");
+  EXPECT_EQ(all.status, 0) << all.output;
+  for (const char* line : {"cmake --build --preset arm-neon --target kernels_census_test kernels_sgm_test\n",
+                           "cmake --build --preset arm-sve --target kernels_census_test kernels_sgm_test\n",
+                           "\n  ctest --test-dir build/arm-neon ",
+                           "\nmax,sve-default-vector-length=16 128 ctest --test-dir build/arm-sve ",
+                           "\nmax,sve-default-vector-length=32 256 ctest --test-dir build/arm-sve ",
+                           "\nmax,sve-default-vector-length=64 512 ctest --test-dir build/arm-sve "}) {
+    EXPECT_TRUE(contains(all.output, line)) << line << "\n" << all.output;
+  }
+  const Result one = dev("test-arm sgm");
+  EXPECT_EQ(one.status, 0) << one.output;
+  EXPECT_TRUE(contains(one.output, "--target kernels_sgm_test\n")) << one.output;
+  EXPECT_TRUE(contains(one.output, "--tests-regex ^(kernels\\.sgm)$\n")) << one.output;
+  EXPECT_EQ(dev("test-arm pipeline").status, 2);
+  EXPECT_EQ(dev("test-arm nothing").status, 2);
 }
 
 TEST_F(DevScript, FuzzesTheReadersAndNamesTheReproducer) {
