@@ -1,12 +1,10 @@
 #include "app/core/pipeline.h"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <vector>
 
 #include "app/core/input_error.h"
 #include "hal/clock/monotonic_clock.h"
@@ -85,10 +83,6 @@ class PipelineTest : public ::testing::Test {
     EXPECT_EQ(pipeline.process(pair_.left.view(), pair_.right.view(), {}, frame), Status::ok);
     return frame;
   }
-  static std::vector<std::uint8_t> types(const FrameResult& f) {
-    const auto& t = f.grid.type;
-    return {t.data, t.data + static_cast<std::ptrdiff_t>(t.width) * t.height};
-  }
 
   Pair pair_ = render();
   MonotonicClock clock_;
@@ -136,18 +130,6 @@ TEST_F(PipelineTest, AllocatesNothingAfterTheStart) {
   const Status status = pipeline.process(pair_.left.view(), pair_.right.view(), {}, frame);
   EXPECT_EQ(test::allocations, before);
   EXPECT_EQ(status, Status::ok);
-}
-
-TEST_F(PipelineTest, TheSameFrameGivesTheSameMapWithAnyNumberOfThreads) {
-  Pipeline pipeline(vehicle(), rig(), kWidth, kHeight, kReferenceKernels, clock_);
-  const int usual = omp_get_max_threads();
-  omp_set_num_threads(1);
-  const std::vector<std::uint8_t> one = types(run(pipeline));
-  for (const int threads : {2, 3, 7}) {
-    omp_set_num_threads(threads);
-    EXPECT_EQ(types(run(pipeline)), one) << threads;
-  }
-  omp_set_num_threads(usual);
 }
 
 TEST_F(PipelineTest, RemappingAnIdealRigChangesNothingMuch) {
