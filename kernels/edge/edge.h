@@ -33,5 +33,7 @@ inline constexpr int kMaxEdgeCap = 127;  // 2 cap fits a byte
 // size_mismatch, bad_argument.
 Status edge_sobel_ref(ImageView<const std::uint8_t> image, int cap, Rows rows, ImageView<std::uint8_t> out);
 Status edge_log_ref(ImageView<const std::uint8_t> image, int cap, Rows rows, ImageView<std::uint8_t> out);
+Status edge_sobel_simd(ImageView<const std::uint8_t> image, int cap, Rows rows, ImageView<std::uint8_t> out);
+Status edge_log_simd(ImageView<const std::uint8_t> image, int cap, Rows rows, ImageView<std::uint8_t> out);
 
 }  // namespace lakshya

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
+#include "tests/support/each_isa.h"
 #include "tests/support/test_image.h"
 
 namespace lakshya {
@@ -17,6 +19,7 @@ using test::PaddedImage;
 struct Filter {
   const char* name;
   decltype(&edge_sobel_ref) run;
+  decltype(&edge_sobel_ref) simd;
   int radius;
 };
 
@@ -31,8 +34,8 @@ class Edge : public ::testing::TestWithParam<Filter> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Filters, Edge,
-                         ::testing::Values(Filter{"sobel", edge_sobel_ref, kEdgeSobelRadius},
-                                           Filter{"log", edge_log_ref, kEdgeLogRadius}),
+                         ::testing::Values(Filter{"sobel", edge_sobel_ref, edge_sobel_simd, kEdgeSobelRadius},
+                                           Filter{"log", edge_log_ref, edge_log_simd, kEdgeLogRadius}),
                          [](const auto& filter) { return std::string(filter.param.name); });
 
 TEST(EdgeSobel, HandComputed) {
@@ -161,17 +164,82 @@ TEST_P(Edge, RowRangesGiveTheSameAsTheWholeAndWriteNothingElse) {
     ASSERT_TRUE(std::equal(whole.view().row(v), whole.view().row(v) + 30, parts.view().row(v))) << v;
 }
 
+void expect_simd_equal(const Filter& filter, const PaddedImage<std::uint8_t>& image, int cap,
+                       const std::string& what) {
+  const int width = image.view().width;
+  const int height = image.view().height;
+  PaddedImage<std::uint8_t> expected(width, height);
+  ASSERT_EQ(filter.run(image.view(), cap, {0, height}, expected.view()), Status::ok);
+  PaddedImage<std::uint8_t> out(width, height, 5, 199);
+  for (const Rows rows : {Rows{0, height / 3}, Rows{height / 3, height}})
+    ASSERT_EQ(filter.simd(image.view(), cap, rows, out.view()), Status::ok);
+  ASSERT_TRUE(test::equal_images(out.view(), expected.view())) << what;
+  EXPECT_TRUE(out.canaries_alive()) << what;
+}
+
+TEST_P(Edge, SimdEqualsTheReference) {
+  std::mt19937 random(4);
+  test::for_each_isa([&](const char* isa) {
+    std::vector<int> widths = test::awkward_widths();
+    widths.insert(widths.end(), {2, 3, 9, 1031, 1032, 1033, 2100});  // strips of 1024 columns
+    for (const int width : widths) {
+      for (const int height : {0, 1, 2, 3, 8, 9, 13}) {
+        PaddedImage<std::uint8_t> image(width, height, 0);
+        const std::string what = std::string(isa) + " " + std::to_string(width) + "x" + std::to_string(height);
+        test::fill_random(image.view(), random, 0, 255);
+        ASSERT_NO_FATAL_FAILURE(expect_simd_equal(GetParam(), image, 127, what));
+        test::fill_random(image.view(), random, 120, 130);  // small sums: roundings
+        ASSERT_NO_FATAL_FAILURE(expect_simd_equal(GetParam(), image, 31, what));
+      }
+    }
+  });
+}
+
+// Black where the answer to a single bright pixel is of one sign, white elsewhere, and parts of that: the largest sums
+// there are, which no 16-bit number holds.
+TEST_P(Edge, SimdEqualsTheReferenceOnTheLargestSums) {
+  constexpr int kPeriod = 9;
+  std::mt19937 random(5);
+  PaddedImage<std::uint8_t> dot(kPeriod, kPeriod, 0, 0);
+  std::vector<int> answer;
+  for (int i = 0; i < kPeriod * kPeriod; ++i) {
+    dot.view().at(i % kPeriod, i / kPeriod) = 32;
+    PaddedImage<std::uint8_t> out(kPeriod, kPeriod);
+    ASSERT_EQ(GetParam().run(dot.view(), 127, {0, kPeriod}, out.view()), Status::ok);
+    answer.push_back(out.view().at(4, 4) - 127);
+    dot.view().at(i % kPeriod, i / kPeriod) = 0;
+  }
+  test::for_each_isa([&](const char* isa) {
+    for (int round = 0; round < 60; ++round) {
+      // Of the pixels with coefficients between low and high the colour is turned round.
+      const int low = std::uniform_int_distribution<int>(-11, 73)(random);
+      const int high = std::uniform_int_distribution<int>(low, 73)(random);
+      PaddedImage<std::uint8_t> image(75, 20, 0);
+      for (int v = 0; v < 20; ++v) {
+        for (int u = 0; u < 75; ++u) {
+          const int k = answer[static_cast<std::size_t>(v % kPeriod * kPeriod + u % kPeriod)];
+          const bool turned = round > 1 && k >= low && k <= high;
+          image.view().at(u, v) = (k > 0) != (turned || round == 1) ? 255 : 0;
+        }
+      }
+      for (const int cap : {31, 127})
+        ASSERT_NO_FATAL_FAILURE(expect_simd_equal(GetParam(), image, cap, isa));
+    }
+  });
+}
+
 TEST_P(Edge, RefusesWrongArguments) {
   const PaddedImage<std::uint8_t> image(10, 10);
   PaddedImage<std::uint8_t> out(10, 10);
   PaddedImage<std::uint8_t> wrong(10, 9);
-  const auto run = GetParam().run;
-  EXPECT_EQ(run(image.view(), 31, {0, 10}, wrong.view()), Status::size_mismatch);
-  EXPECT_EQ(run(image.view(), 0, {0, 10}, out.view()), Status::bad_argument);
-  EXPECT_EQ(run(image.view(), 128, {0, 10}, out.view()), Status::bad_argument);
-  EXPECT_EQ(run(image.view(), 31, {0, 11}, out.view()), Status::bad_argument);
-  EXPECT_EQ(run(image.view(), 31, {-1, 5}, out.view()), Status::bad_argument);
-  EXPECT_EQ(run(image.view(), 31, {6, 5}, out.view()), Status::bad_argument);
+  for (const auto run : {GetParam().run, GetParam().simd}) {
+    EXPECT_EQ(run(image.view(), 31, {0, 10}, wrong.view()), Status::size_mismatch);
+    EXPECT_EQ(run(image.view(), 0, {0, 10}, out.view()), Status::bad_argument);
+    EXPECT_EQ(run(image.view(), 128, {0, 10}, out.view()), Status::bad_argument);
+    EXPECT_EQ(run(image.view(), 31, {0, 11}, out.view()), Status::bad_argument);
+    EXPECT_EQ(run(image.view(), 31, {-1, 5}, out.view()), Status::bad_argument);
+    EXPECT_EQ(run(image.view(), 31, {6, 5}, out.view()), Status::bad_argument);
+  }
 }
 
 }  // namespace
