@@ -37,7 +37,8 @@ struct Strip {
 void copy_row(const std::uint8_t* row, int width, Strip strip, WindowRow& copy) {
   const UnsignedBytes d;
   const int lanes = static_cast<int>(hn::Lanes(d));
-  const auto index = [&](int u) { return static_cast<std::size_t>(u - strip.begin + kCensusRadiusU); };
+  const int first_column = strip.begin - kCensusRadiusU;
+  const auto index = [&](int u) { return static_cast<std::size_t>(u - first_column); };
   const int begin = std::max(strip.begin - kCensusRadiusU, 0);
   const int end = std::min(strip.end + kCensusRadiusU, width);
   for (int u = begin; u < end; u += lanes) {
@@ -45,7 +46,7 @@ void copy_row(const std::uint8_t* row, int width, Strip strip, WindowRow& copy) 
     const auto pixels = hn::Xor(hn::LoadU(d, row + first), hn::Set(d, 0x80));
     hn::StoreU(hn::BitCast(Bytes(), pixels), Bytes(), &copy[index(first)]);
   }
-  for (int u = strip.begin - kCensusRadiusU; u < begin; ++u)
+  for (int u = first_column; u < begin; ++u)
     copy[index(u)] = copy[index(begin)];
   for (int u = end; u < strip.end + kCensusRadiusU; ++u)
     copy[index(u)] = copy[index(end - 1)];

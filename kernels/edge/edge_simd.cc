@@ -102,7 +102,8 @@ struct LaplacianOfGaussian {
     const Words d;
     for_each_vector(count, [&](int i) {
       const auto at = [&](int x, int offset) {
-        return hn::LoadU(d, &columns[static_cast<std::size_t>(x)][static_cast<std::size_t>(i + kRadius + offset)]);
+        const int column = i + kRadius + offset;
+        return hn::LoadU(d, &columns[static_cast<std::size_t>(x)][static_cast<std::size_t>(column)]);
       };
       const auto both = [&](int x) { return hn::Add(at(x, -x), at(x, x)); };
       const auto one = hn::Sub(both(1), hn::Set(d, 128 * 96));

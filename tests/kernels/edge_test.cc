@@ -217,7 +217,8 @@ TEST_P(Edge, SimdEqualsTheReferenceOnTheLargestSums) {
       PaddedImage<std::uint8_t> image(75, 20, 0);
       for (int v = 0; v < 20; ++v) {
         for (int u = 0; u < 75; ++u) {
-          const int k = answer[static_cast<std::size_t>(v % kPeriod * kPeriod + u % kPeriod)];
+          const int place = v % kPeriod * kPeriod + u % kPeriod;
+          const int k = answer[static_cast<std::size_t>(place)];
           const bool turned = round > 1 && k >= low && k <= high;
           image.view().at(u, v) = (k > 0) != (turned || round == 1) ? 255 : 0;
         }
