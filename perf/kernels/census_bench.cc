@@ -16,7 +16,7 @@ void census_kernel(benchmark::State& state) {
 }
 BENCHMARK(census_kernel<census_ref>)->Name("census_reference")->Unit(benchmark::kMillisecond);
 
-const bool registered = bench::register_each_isa("census_simd", census_kernel<census_simd>);
+const bool kRegistered = bench::register_each_isa("census_simd", census_kernel<census_simd>);
 
 }  // namespace
 }  // namespace lakshya

@@ -17,8 +17,8 @@ void edge_kernel(benchmark::State& state) {
 BENCHMARK(edge_kernel<edge_sobel_ref>)->Name("edge_sobel_reference")->Unit(benchmark::kMillisecond);
 BENCHMARK(edge_kernel<edge_log_ref>)->Name("edge_log_reference")->Unit(benchmark::kMillisecond);
 
-const bool registered = bench::register_each_isa("edge_sobel_simd", edge_kernel<edge_sobel_simd>) &&
-                        bench::register_each_isa("edge_log_simd", edge_kernel<edge_log_simd>);
+const bool kRegistered = bench::register_each_isa("edge_sobel_simd", edge_kernel<edge_sobel_simd>) &&
+                         bench::register_each_isa("edge_log_simd", edge_kernel<edge_log_simd>);
 
 }  // namespace
 }  // namespace lakshya

@@ -43,7 +43,7 @@ void rectify_kernel(benchmark::State& state) {
 }
 BENCHMARK(rectify_kernel<rectify_ref>)->Name("rectify_reference")->Unit(benchmark::kMillisecond);
 
-const bool registered = bench::register_each_isa("rectify_simd", rectify_kernel<rectify_simd>);
+const bool kRegistered = bench::register_each_isa("rectify_simd", rectify_kernel<rectify_simd>);
 
 }  // namespace
 }  // namespace lakshya

@@ -16,7 +16,7 @@ void texture_kernel(benchmark::State& state) {
 }
 BENCHMARK(texture_kernel<texture_ref>)->Name("texture_reference")->Unit(benchmark::kMillisecond);
 
-const bool registered = bench::register_each_isa("texture_simd", texture_kernel<texture_simd>);
+const bool kRegistered = bench::register_each_isa("texture_simd", texture_kernel<texture_simd>);
 
 }  // namespace
 }  // namespace lakshya
