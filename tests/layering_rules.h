@@ -120,8 +120,10 @@ inline bool may_include(const Layer& layer, std::string_view path, const Include
   static const std::vector<std::string_view> ours = {"kernels/", "hal/", "app/", "boards/", "tests/", "perf/"};
   const std::string_view name = include.name;
   if (name.find("..") != std::string_view::npos) return false;
+  const bool simd_source = path.ends_with("_simd.cc") || path.ends_with("_simd-inl.h");
+  if (name.ends_with("_simd-inl.h") && !simd_source) return false;
   if (starts_with_any(name, ours)) return starts_with_any(name, layer.project);
-  if (name.starts_with("hwy/")) return layer.folder == "kernels/" && path.ends_with("_simd.cc");
+  if (name.starts_with("hwy/")) return layer.folder == "kernels/" && simd_source;
   if (include.quoted || starts_with_any(name, layer.refused)) return false;
   return !layer.only_standard || is_standard(name);
 }

@@ -26,6 +26,8 @@ TEST(LayeringRules, ArrowsThatTheTableAllows) {
   const std::string standard = "#include <cstdint>\n#include <array>\n";
   EXPECT_EQ(check_source("kernels/a/a.h", standard + "#include \"kernels/base/status.h\"\n"), Findings{});
   EXPECT_EQ(check_source("kernels/a/a_simd.cc", "#include \"hwy/highway.h\"\n#include <hwy/base.h>\n"), Findings{});
+  EXPECT_EQ(check_source("kernels/a/b_simd-inl.h", "#include \"hwy/highway.h\"\n"), Findings{});
+  EXPECT_EQ(check_source("kernels/a/a_simd.cc", "#include \"kernels/a/b_simd-inl.h\"\n"), Findings{});
   EXPECT_EQ(check_source("hal/c/c.cc", "#include \"kernels/base/units.h\"\n#include <termios.h>\n"), Findings{});
   EXPECT_EQ(check_source("app/nav/n.cc", "#include \"kernels/prune/prune.h\"\n"), Findings{});
   EXPECT_EQ(
@@ -37,7 +39,9 @@ TEST(LayeringRules, ArrowsThatTheTableAllows) {
 TEST(LayeringRules, WrongArrows) {
   const std::map<std::string, std::vector<std::string>> cases = {
       {"kernels/a/a.h", {"\"hal/c.h\"", "\"hwy/highway.h\"", "<hwy/base.h>", "<opencv2/core.hpp>", "<Eigen/Core>"}},
-      {"kernels/a/a.cc", {"\"app/core/image.h\"", "\"a.h\"", "\"kernels/../hal/c.h\"", "<kernels/../hal/c.h>"}},
+      {"kernels/a/a.cc",
+       {"\"kernels/a/b_simd-inl.h\"", "\"app/core/image.h\"", "\"a.h\"", "\"kernels/../hal/c.h\"",
+        "<kernels/../hal/c.h>"}},
       {"kernels/a/a_simd.cc", {"<immintrin.h>", "\"hal/c.h\""}},
       {"hal/c.cc", {"\"kernels/census/census.h\"", "\"app/core/image.h\"", "<yaml-cpp/yaml.h>"}},
       {"app/nav/n.cc", {"\"app/core/image.h\"", "\"hal/clock.h\"", "<yaml-cpp/yaml.h>", "<opencv2/core.hpp>"}},
