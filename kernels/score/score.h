@@ -49,5 +49,13 @@ Status build_score_table(const GridGeometry& grid, const ScoreGeometry& geometry
 
 // Writes grid.type from the counts. thresholds: rows * cols. min_height_mm: h_min. size_mismatch, bad_argument.
 Status score_ref(std::span<const CellThresholds> thresholds, std::int32_t min_height_mm, const NavGrid& grid);
+Status score_simd(std::span<const CellThresholds> thresholds, std::int32_t min_height_mm, const NavGrid& grid);
+
+// What both refuse.
+Status check_score_arguments(std::span<const CellThresholds> thresholds, std::int32_t min_height_mm,
+                             const NavGrid& grid);
+// Columns from `begin` of one row by the reference: what a vector does not reach. thresholds: of the row.
+void score_cells_ref(std::span<const CellThresholds> thresholds, std::int32_t min_height_mm, const NavGrid& grid,
+                     int row, int begin);
 
 }  // namespace lakshya

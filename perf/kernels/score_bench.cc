@@ -7,7 +7,7 @@
 namespace lakshya {
 namespace {
 
-void score_reference(benchmark::State& state) {
+void score_frame(benchmark::State& state, decltype(&score_ref) score) {
   test::TestGrid grid(200, 200);
   ScoreGeometry geometry;
   geometry.focal_px = 420;
@@ -16,10 +16,11 @@ void score_reference(benchmark::State& state) {
   std::vector<CellThresholds> thresholds(std::size_t{200} * 200);
   bench::require_ok(build_score_table(grid.view().geometry, geometry, thresholds));
   for (auto _ : state)
-    bench::require_ok(score_ref(thresholds, 70, grid.view()));
+    bench::require_ok(score(thresholds, 70, grid.view()));
   bench::report_per(state, "per_cell", 200.0 * 200.0);
 }
-BENCHMARK(score_reference)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(score_frame, ref, score_ref)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(score_frame, simd, score_simd)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace lakshya

@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <random>
+#include <span>
 #include <vector>
 
 #include "kernels/base/units.h"
+#include "tests/support/each_isa.h"
 #include "tests/support/test_grid.h"
 
 namespace lakshya {
@@ -121,6 +126,51 @@ TEST(ScoreTable, RefusesWrongArguments) {
   EXPECT_EQ(score_ref(table, 70, grid.view()), Status::size_mismatch);
   table.resize(100);
   EXPECT_EQ(score_ref(table, -1, grid.view()), Status::bad_argument);
+}
+
+TEST(ScoreSimd, EqualsTheReference) {
+  std::mt19937 random(9);
+  test::for_each_isa([&](const char* isa) {
+    int seen[3] = {};
+    for (const int half_cols : test::awkward_widths()) {
+      const int rows = 5;
+      const int cols = 2 * std::max(half_cols, 1);
+      TestGrid expected(rows, cols);
+      const NavGrid grid = expected.view();
+      std::vector<CellThresholds> thresholds(static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols));
+      const bool large = half_cols % 2 == 0;  // counts that are negative as signed numbers
+      const auto count = [&] { return static_cast<std::uint32_t>(large ? random() : random() % 12); };
+      for (int r = 0; r < rows; ++r) {
+        for (int c = 0; c < cols; ++c) {
+          grid.count.at(c, r) = count();
+          grid.floor_count.at(c, r) = count();
+          grid.below_count.at(c, r) = count();
+          // On, beside and far from the mean height of 70 mm.
+          grid.height_sum.at(c, r) = 70LL * grid.count.at(c, r) + static_cast<std::int64_t>(random() % 3) - 1;
+          if (random() % 4 == 0) grid.height_sum.at(c, r) = static_cast<std::int32_t>(random()) * 4096LL;
+        }
+      }
+      for (CellThresholds& t : thresholds)
+        t = {count(), count(), count()};
+      TestGrid found = expected;
+      ASSERT_EQ(score_ref(thresholds, 70, expected.view()), Status::ok);
+      ASSERT_EQ(score_simd(thresholds, 70, found.view()), Status::ok);
+      ASSERT_TRUE(found == expected) << isa << " " << cols << " columns";
+      for (int r = 0; r < rows; ++r) {
+        for (int c = 0; c < cols; ++c)
+          ++seen[found.view().type.at(c, r)];
+      }
+    }
+    for (const int n : seen)
+      EXPECT_GT(n, 100);
+  });
+}
+
+TEST(ScoreSimd, RefusesWhatTheReferenceRefuses) {
+  TestGrid g(4, 4);
+  const std::vector<CellThresholds> thresholds(16);
+  EXPECT_EQ(score_simd(std::span(thresholds).first(15), 70, g.view()), Status::size_mismatch);
+  EXPECT_EQ(score_simd(thresholds, -1, g.view()), Status::bad_argument);
 }
 
 }  // namespace
