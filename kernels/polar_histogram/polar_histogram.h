@@ -80,5 +80,7 @@ Status build_polar_table(const GridGeometry& geometry, const PolarParams& params
 // adds nothing. The histogram is overwritten. `type` is rows x cols; size_mismatch: the table is not of its size.
 Status polar_histogram_ref(ImageView<const std::uint8_t> type, std::span<const PolarEntry> table,
                            std::span<std::uint32_t, kPolarSectors> histogram, const PolarWindow& window = {});
+Status polar_histogram_simd(ImageView<const std::uint8_t> type, std::span<const PolarEntry> table,
+                            std::span<std::uint32_t, kPolarSectors> histogram, const PolarWindow& window = {});
 
 }  // namespace lakshya

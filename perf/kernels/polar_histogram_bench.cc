@@ -32,19 +32,23 @@ void polar_table(benchmark::State& state) {
 }
 BENCHMARK(polar_table);
 
-void polar_histogram_reference(benchmark::State& state, const PolarWindow& window) {
+void polar_histogram(benchmark::State& state, decltype(&polar_histogram_ref) sum, const PolarWindow& window) {
   std::vector<PolarEntry> table(polar_table_entries(kGeometry));
   bench::require_ok(build_polar_table(kGeometry, kParams, table));
   const auto type = scattered_obstacles(static_cast<int>(state.range(0)));
   PolarHistogram histogram{};
   for (auto _ : state) {
-    bench::require_ok(polar_histogram_ref(type.view(), table, histogram, window));
+    bench::require_ok(sum(type.view(), table, histogram, window));
     benchmark::DoNotOptimize(histogram.data());
   }
   bench::report_per(state, "per_cell", kCells);
 }
-BENCHMARK_CAPTURE(polar_histogram_reference, whole_grid, PolarWindow{})->Arg(0)->Arg(5)->Arg(50);
-BENCHMARK_CAPTURE(polar_histogram_reference, active_window, polar_window(kGeometry, kParams))
+BENCHMARK_CAPTURE(polar_histogram, ref_whole_grid, polar_histogram_ref, PolarWindow{})->Arg(0)->Arg(5)->Arg(50);
+BENCHMARK_CAPTURE(polar_histogram, ref_active_window, polar_histogram_ref, polar_window(kGeometry, kParams))
+    ->Arg(0)
+    ->Arg(5)
+    ->Arg(50);
+BENCHMARK_CAPTURE(polar_histogram, simd_active_window, polar_histogram_simd, polar_window(kGeometry, kParams))
     ->Arg(0)
     ->Arg(5)
     ->Arg(50);

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "kernels/base/units.h"
+#include "tests/support/each_isa.h"
+#include "tests/support/test_image.h"
 
 namespace lakshya {
 namespace {
@@ -280,6 +282,43 @@ TEST_F(PolarHistogramTest, Refusals) {
   EXPECT_EQ(histogram_, PolarHistogram{});
 }
 
+TEST(PolarHistogramSimd, EqualsTheReference) {
+  std::mt19937 random(17);
+  test::for_each_isa([&](const char* isa) {
+    for (const int width : test::awkward_widths()) {
+      constexpr int kRows = 6;
+      test::PaddedImage<std::uint8_t> type(width, kRows, 3, std::uint8_t{kCellObstacle});
+      std::vector<PolarEntry> table(static_cast<std::size_t>(width) * kRows);
+      for (PolarEntry& e : table) {
+        e = {static_cast<std::uint16_t>(random() % 1001), static_cast<std::uint8_t>(random() % kPolarSectors),
+             static_cast<std::uint8_t>(random() % 38)};
+      }
+      for (const int share : {1, 3, 60}) {
+        for (int r = 0; r < kRows; ++r) {
+          for (int c = 0; c < width; ++c)
+            type.view().at(c, r) =
+                static_cast<std::uint8_t>(static_cast<int>(random() % 64) < share ? 0 : 1 + random() % 2);
+        }
+        for (const PolarWindow& w : {PolarWindow{}, {1, 5, 2, width - 1}, {-3, 90, -2, 900}, {4, 2, 5, 1}}) {
+          PolarHistogram expected{};
+          PolarHistogram found{};
+          found.fill(7);
+          ASSERT_EQ(polar_histogram_ref(type.view(), table, expected, w), Status::ok);
+          ASSERT_EQ(polar_histogram_simd(type.view(), table, found, w), Status::ok);
+          ASSERT_EQ(found, expected) << isa << " width " << width;
+        }
+      }
+    }
+  });
+}
+
+TEST_F(PolarHistogramTest, SimdRefusesTheSame) {
+  EXPECT_EQ(polar_histogram_simd({cells_.data(), -1, 10}, table_, histogram_), Status::bad_argument);
+  EXPECT_EQ(polar_histogram_simd({cells_.data(), 2001, 10}, table_, histogram_), Status::bad_argument);
+  table_.pop_back();
+  EXPECT_EQ(polar_histogram_simd(type(), table_, histogram_), Status::size_mismatch);
+}
+
 TEST(PolarHistogramLimits, TheLargestSumFits) {
   const std::size_t cells = std::size_t{kPolarMaxSide} * kPolarMaxSide;
   const std::vector<std::uint8_t> type(cells, kCellObstacle);
@@ -287,6 +326,9 @@ TEST(PolarHistogramLimits, TheLargestSumFits) {
   PolarHistogram histogram{};
   ASSERT_EQ(polar_histogram_ref({type.data(), kPolarMaxSide, kPolarMaxSide}, table, histogram), Status::ok);
   EXPECT_EQ(histogram[71], 4'000'000'000U);
+  PolarHistogram simd{};
+  ASSERT_EQ(polar_histogram_simd({type.data(), kPolarMaxSide, kPolarMaxSide}, table, simd), Status::ok);
+  EXPECT_EQ(simd, histogram);
   EXPECT_EQ(histogram[0], 4'000'000'000U);
   EXPECT_EQ(histogram[1], 0U);
 }
