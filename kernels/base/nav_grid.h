@@ -13,6 +13,7 @@ struct GridGeometry {
   int rows = 200;
   int cols = 200;
   std::int32_t cell_mm = 100;
+  friend bool operator==(const GridGeometry&, const GridGeometry&) = default;
 };
 
 // One plane per quantity, all rows x cols (image height = rows, width = cols).

@@ -18,6 +18,9 @@ namespace lakshya {
 // Sets every count to zero and every type to kCellUnknown. bad_argument: see grid_ok.
 Status clear_grid(const NavGrid& grid);
 
+// Adds the counts of `from` in these rows to those of `to`, a map of the same geometry. bad_argument (grids, rows).
+Status add_grid(const NavGrid& from, Rows rows, const NavGrid& to);
+
 // True when all planes are rows x cols, the sizes are positive and cols is even.
 bool grid_ok(const NavGrid& grid);
 

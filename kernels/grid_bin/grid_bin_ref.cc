@@ -71,6 +71,22 @@ Status clear_grid(const NavGrid& grid) {
   return Status::ok;
 }
 
+Status add_grid(const NavGrid& from, Rows rows, const NavGrid& to) {
+  if (!grid_ok(from) || !grid_ok(to) || from.geometry != to.geometry || !rows_inside(rows, to.count))
+    return Status::bad_argument;
+  const auto add_row = [](const auto& source, int r, const auto& sum) {
+    for (int c = 0; c < sum.width; ++c)
+      sum.at(c, r) += source.at(c, r);
+  };
+  for (int r = rows.begin; r < rows.end; ++r) {
+    add_row(from.count, r, to.count);
+    add_row(from.height_sum, r, to.height_sum);
+    add_row(from.floor_count, r, to.floor_count);
+    add_row(from.below_count, r, to.below_count);
+  }
+  return Status::ok;
+}
+
 Status bin_obstacles_ref(std::span<const ObstaclePoint> points, const NavGrid& grid) {
   if (!grid_ok(grid)) return Status::bad_argument;
   for (const ObstaclePoint& p : points) {

@@ -34,6 +34,41 @@ TEST(GridBin, CellsAreHalfOpenAsTheContractSays) {
   EXPECT_EQ(g.total(g.view().count), 5U);
 }
 
+TEST(GridBin, AddsTheCountsOfAnotherMap) {
+  TestGrid a(4, 6);
+  TestGrid b(4, 6);
+  TestGrid sum(4, 6);
+  std::uint32_t n = 1;
+  for (int r = 0; r < 4; ++r) {
+    for (int c = 0; c < 6; ++c, n += 5) {
+      a.view().count.at(c, r) = n;
+      b.view().count.at(c, r) = 2 * n;
+      a.view().height_sum.at(c, r) = -std::int64_t{n} << 33;
+      b.view().height_sum.at(c, r) = n;
+      a.view().floor_count.at(c, r) = n + 1;
+      b.view().floor_count.at(c, r) = n + 2;
+      b.view().below_count.at(c, r) = n + 3;
+    }
+  }
+  for (const Rows rows : {Rows{0, 1}, Rows{1, 4}}) {
+    ASSERT_EQ(add_grid(a.view(), rows, sum.view()), Status::ok);
+    ASSERT_EQ(add_grid(b.view(), rows, sum.view()), Status::ok);
+  }
+  n = 1;
+  for (int r = 0; r < 4; ++r) {
+    for (int c = 0; c < 6; ++c, n += 5) {
+      EXPECT_EQ(sum.view().count.at(c, r), 3 * n);
+      EXPECT_EQ(sum.view().height_sum.at(c, r), n - (std::int64_t{n} << 33));
+      EXPECT_EQ(sum.view().floor_count.at(c, r), 2 * n + 3);
+      EXPECT_EQ(sum.view().below_count.at(c, r), n + 3);
+      EXPECT_EQ(sum.view().type.at(c, r), kCellUnknown);
+    }
+  }
+  TestGrid other(4, 8);
+  EXPECT_EQ(add_grid(other.view(), {0, 4}, sum.view()), Status::bad_argument);
+  EXPECT_EQ(add_grid(a.view(), {0, 5}, sum.view()), Status::bad_argument);
+}
+
 TEST(GridBin, NothingIsDroppedForBeingNear) {
   TestGrid g(10, 10);
   ASSERT_EQ(bin_obstacles_ref(std::vector<ObstaclePoint>{{-250, 0, 10}, {-1, 0, 10}}, g.view()), Status::ok);
