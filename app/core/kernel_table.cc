@@ -17,20 +17,10 @@ struct KernelName {
 #member, [](const KernelTable& from, KernelTable& to) { to.member = from.member; } \
   }
 constexpr KernelName kKernels[] = {
-    LAKSHYA_KERNEL(rectify),
-    LAKSHYA_KERNEL(census),
-    LAKSHYA_KERNEL(texture),
-    LAKSHYA_KERNEL(edge_sobel),
-    LAKSHYA_KERNEL(edge_log),
-    LAKSHYA_KERNEL(sgm),
-    LAKSHYA_KERNEL(census_block),
-    LAKSHYA_KERNEL(sad_block),
-    LAKSHYA_KERNEL(support),
-    LAKSHYA_KERNEL(ground_residuals_row),
-    LAKSHYA_KERNEL(reproject_prune_row),
-    LAKSHYA_KERNEL(bin_obstacles),
-    LAKSHYA_KERNEL(bin_ground),
-    LAKSHYA_KERNEL(score),
+    LAKSHYA_KERNEL(rectify),          LAKSHYA_KERNEL(census),       LAKSHYA_KERNEL(texture),
+    LAKSHYA_KERNEL(edge_sobel),       LAKSHYA_KERNEL(edge_log),     LAKSHYA_KERNEL(sgm),
+    LAKSHYA_KERNEL(census_block),     LAKSHYA_KERNEL(sad_block),    LAKSHYA_KERNEL(support),
+    LAKSHYA_KERNEL(ground_residuals), LAKSHYA_KERNEL(project_rows), LAKSHYA_KERNEL(score),
 };
 #undef LAKSHYA_KERNEL
 

@@ -8,9 +8,9 @@
 #include "kernels/block/block.h"
 #include "kernels/census/census.h"
 #include "kernels/edge/edge.h"
-#include "kernels/grid_bin/grid_bin.h"
 #include "kernels/ground/ground.h"
-#include "kernels/prune/prune.h"
+#include "kernels/polar_histogram/polar_histogram.h"
+#include "kernels/project/project.h"
 #include "kernels/rectify/rectify.h"
 #include "kernels/score/score.h"
 #include "kernels/sgm/sgm.h"
@@ -29,11 +29,10 @@ struct KernelTable {
   decltype(&census_block_ref) census_block;
   decltype(&sad_block_ref) sad_block;
   decltype(&support_ref) support;
-  decltype(&ground_residuals_row_ref) ground_residuals_row;
-  decltype(&reproject_prune_row_ref) reproject_prune_row;
-  decltype(&bin_obstacles_ref) bin_obstacles;
-  decltype(&bin_ground_ref) bin_ground;
+  decltype(&ground_residuals_ref) ground_residuals;
+  decltype(&project_rows_ref) project_rows;
   decltype(&score_ref) score;
+  decltype(&polar_histogram_ref) polar_histogram;
 };
 
 inline constexpr KernelTable kReferenceKernels = {
@@ -46,11 +45,10 @@ inline constexpr KernelTable kReferenceKernels = {
     .census_block = census_block_ref,
     .sad_block = sad_block_ref,
     .support = support_ref,
-    .ground_residuals_row = ground_residuals_row_ref,
-    .reproject_prune_row = reproject_prune_row_ref,
-    .bin_obstacles = bin_obstacles_ref,
-    .bin_ground = bin_ground_ref,
+    .ground_residuals = ground_residuals_ref,
+    .project_rows = project_rows_ref,
     .score = score_ref,
+    .polar_histogram = polar_histogram_ref,
 };
 
 // On the instruction set of kernels/base/isa.h; bit for bit what the reference gives.
@@ -64,11 +62,10 @@ inline constexpr KernelTable kSimdKernels = {
     .census_block = census_block_ref,
     .sad_block = sad_block_ref,
     .support = support_ref,
-    .ground_residuals_row = ground_residuals_row_ref,
-    .reproject_prune_row = reproject_prune_row_ref,
-    .bin_obstacles = bin_obstacles_ref,
-    .bin_ground = bin_ground_ref,
-    .score = score_ref,
+    .ground_residuals = ground_residuals_simd,
+    .project_rows = project_rows_simd,
+    .score = score_simd,
+    .polar_histogram = polar_histogram_simd,
 };
 
 // Where a backend's buffers live. The arena's are in host memory; a backend that wants them elsewhere needs an arena of

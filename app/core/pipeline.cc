@@ -1,10 +1,13 @@
 #include "app/core/pipeline.h"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "app/core/geometry.h"
 #include "app/core/input_error.h"
+#include "kernels/grid_bin/grid_bin.h"
 
 namespace lakshya {
 namespace {
@@ -23,6 +26,15 @@ NavGrid take_grid(const GridGeometry& g, Arena& arena) {
           arena.take_image<std::uint32_t>(g.cols, g.rows),
           arena.take_image<std::uint32_t>(g.cols, g.rows),
           arena.take_image<std::uint8_t>(g.cols, g.rows)};
+}
+
+// A map for every thread that may count points, the first of them the frame's: adding the others to it costs less than
+// atomic adds in a common one (docs/performance.md).
+std::vector<NavGrid> take_maps(const GridGeometry& g, int bands, Arena& arena) {
+  std::vector<NavGrid> maps(size(std::clamp(omp_get_max_threads(), 1, bands)));
+  for (NavGrid& map : maps)
+    map = take_grid(g, arena);
+  return maps;
 }
 
 void require(Status status, const char* what) {
@@ -52,12 +64,10 @@ Pipeline::Buffers::Buffers(const VehicleConfig& config, const RectifiedGeometry&
       classes(arena.take_image<PixelClass>(camera.width, camera.height)),
       depth_table(arena.take<std::int32_t>(prune_table_entries(max_disparity_px(config.matcher)))),
       height_table(arena.take<std::int32_t>(prune_table_entries(max_disparity_px(config.matcher)))),
-      obstacles(arena.take<ObstaclePoint>(size(config.matcher.bands) * size(camera.width))),
-      floor(arena.take<GroundStrip>(size(config.matcher.bands) * size(camera.width))),
-      below(arena.take<GroundStrip>(size(config.matcher.bands) * size(camera.width))),
+      project_scratch(arena.take<std::byte>(size(config.matcher.bands) * project_scratch_bytes(camera.width))),
       counts(arena.take<PixelCounts>(size(config.matcher.bands))),
       residuals(arena.take<GroundHistogram>(size(config.matcher.bands))),
-      grid(take_grid(grid_geometry(config.grid), arena)),
+      maps(take_maps(grid_geometry(config.grid), config.matcher.bands, arena)),
       thresholds(arena.take<CellThresholds>(size(config.grid.rows) * size(config.grid.cols))),
       polar_table(arena.take<PolarEntry>(polar_table_entries(grid_geometry(config.grid)))) {}
 
@@ -100,10 +110,11 @@ Pipeline::Pipeline(const VehicleConfig& config, const StereoCalibration& calibra
   prune_model_ = mount_model_;
   ground_range16_ = disparity_of_pitch16(config, camera_, config.prune.ground_range_deg);
   ground_rate16_ = disparity_of_pitch16(config, camera_, config.prune.ground_rate_deg);
-  require(build_score_table(b.grid.geometry, score_geometry(config, camera_), b.thresholds), "score");
+  require(build_score_table(b.maps[0].geometry, score_geometry(config, camera_), b.thresholds), "score");
   PlannerParams planner = config.planner;
   planner.blind_zone_m = blind_zone_m_;
-  require(planner_.configure(planner, config.vehicle, b.grid.geometry, b.polar_table), "planner");
+  require(planner_.configure(planner, config.vehicle, b.maps[0].geometry, b.polar_table, kernels.polar_histogram),
+          "planner");
 }
 
 Rows Pipeline::band_rows(int band) const {
@@ -134,14 +145,13 @@ Status Pipeline::rectify(ImageView<const std::uint8_t> left, ImageView<const std
 
 Status Pipeline::find_ground(FrameResult& result) {
   std::span<GroundHistogram> residuals = buffers_->residuals;
-#pragma omp parallel for schedule(dynamic)
+  int worst = 0;
+#pragma omp parallel for schedule(dynamic) reduction(max : worst)
   for (int band = 0; band < bands_; ++band) {
     GroundHistogram& h = residuals[size(band)];
     h.fill(0);
-    const Rows rows = band_rows(band);
-    for (int v = rows.begin; v < rows.end; ++v) {
-      kernels_->ground_residuals_row(mount_model_, v, {result.disparity.row(v), size(camera_.width)}, h);
-    }
+    worst = std::max(
+        worst, static_cast<int>(kernels_->ground_residuals(mount_model_, result.disparity, band_rows(band), h)));
   }
   for (std::size_t band = 1; band < residuals.size(); ++band) {
     for (std::size_t i = 0; i < residuals[0].size(); ++i)
@@ -155,41 +165,32 @@ Status Pipeline::find_ground(FrameResult& result) {
   ground_offset16_ = offset;
   result.ground_offset16 = offset;
   prune_model_ = shift_floor(mount_model_, std::int64_t{offset} << kDisparityToQ16);
-  return Status::ok;
-}
-
-Status Pipeline::project_band(int band, const ImageView<const std::int16_t>& disparity) {
-  Buffers& b = *buffers_;
-  const std::size_t width = size(camera_.width);
-  PrunedRow row;
-  row.obstacles = b.obstacles.subspan(size(band) * width, width);
-  row.floor = b.floor.subspan(size(band) * width, width);
-  row.below = b.below.subspan(size(band) * width, width);
-  const Rows rows = band_rows(band);
-  for (int v = rows.begin; v < rows.end; ++v) {
-    const Status statuses[] = {
-        kernels_->reproject_prune_row(prune_model_, v, {disparity.row(v), width}, row, b.counts[size(band)],
-                                      {b.classes.row(v), width}),
-        kernels_->bin_obstacles(row.obstacles.first(row.obstacle_count), b.grid),
-        kernels_->bin_ground(row.floor.first(row.floor_count), b.grid, b.grid.floor_count),
-        kernels_->bin_ground(row.below.first(row.below_count), b.grid, b.grid.below_count),
-    };
-    for (const Status status : statuses) {
-      if (status != Status::ok) return status;
-    }
-  }
-  return Status::ok;
+  return static_cast<Status>(worst);
 }
 
 Status Pipeline::project_and_bin(FrameResult& result) {
   Buffers& b = *buffers_;
-  const Status cleared = clear_grid(b.grid);
-  if (cleared != Status::ok) return cleared;
   std::fill(b.counts.begin(), b.counts.end(), PixelCounts{});
+  const std::size_t scratch = project_scratch_bytes(camera_.width);
+  const int maps = static_cast<int>(b.maps.size());
   int worst = 0;
-#pragma omp parallel for schedule(dynamic) reduction(max : worst)
+#pragma omp parallel for num_threads(maps) reduction(max : worst)
+  for (int map = 0; map < maps; ++map) {
+    worst = std::max(worst, static_cast<int>(clear_grid(b.maps[size(map)])));
+  }
+#pragma omp parallel for schedule(dynamic) num_threads(maps) reduction(max : worst)
   for (int band = 0; band < bands_; ++band) {
-    worst = std::max(worst, static_cast<int>(project_band(band, result.disparity)));
+    const Status status = kernels_->project_rows(
+        prune_model_, result.disparity, band_rows(band), b.maps[size(omp_get_thread_num())], b.counts[size(band)],
+        b.classes, b.project_scratch.subspan(size(band) * scratch, scratch));
+    worst = std::max(worst, static_cast<int>(status));
+  }
+#pragma omp parallel for num_threads(maps) reduction(max : worst)
+  for (int band = 0; band < bands_; ++band) {
+    for (std::size_t map = 1; map < b.maps.size(); ++map) {
+      const Rows rows = rows_of_band(b.maps[0].geometry.rows, bands_, band);
+      worst = std::max(worst, static_cast<int>(add_grid(b.maps[map], rows, b.maps[0])));
+    }
   }
   result.pixels = {};
   for (const PixelCounts& counts : b.counts) {
@@ -199,7 +200,7 @@ Status Pipeline::project_and_bin(FrameResult& result) {
       result.pixels.by_reason[i] += counts.by_reason[i];
   }
   result.classes = b.classes;
-  result.grid = b.grid;
+  result.grid = b.maps[0];
   return static_cast<Status>(worst);
 }
 

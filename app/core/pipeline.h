@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "app/core/arena.h"
 #include "app/core/calibration.h"
@@ -61,11 +62,10 @@ class Pipeline {
     Matcher matcher;
     ImageView<PixelClass> classes;
     std::span<std::int32_t> depth_table, height_table;
-    std::span<ObstaclePoint> obstacles;  // one row of each for every band
-    std::span<GroundStrip> floor, below;
+    std::span<std::byte> project_scratch;  // project_scratch_bytes() for every band
     std::span<PixelCounts> counts;
     std::span<GroundHistogram> residuals;
-    NavGrid grid;
+    std::vector<NavGrid> maps;
     std::span<CellThresholds> thresholds;
     std::span<PolarEntry> polar_table;
   };
@@ -73,7 +73,6 @@ class Pipeline {
   Status rectify(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, FrameResult& result);
   Status find_ground(FrameResult& result);
   Status project_and_bin(FrameResult& result);
-  Status project_band(int band, const ImageView<const std::int16_t>& disparity);
   Rows band_rows(int band) const;
 
   const KernelTable* kernels_;

@@ -51,7 +51,7 @@ Thresholds histogram_thresholds(const PlannerParams& params) {
 }
 
 Status Planner::configure(const PlannerParams& params, const VehicleParams& vehicle, const GridGeometry& geometry,
-                          std::span<PolarEntry> table) {
+                          std::span<PolarEntry> table, decltype(&polar_histogram_ref) sum) {
   if (!usable(params)) return Status::bad_argument;
   const double enlargement_m = vehicle.radius_m + vehicle.safety_distance_m;
   PolarParams polar;
@@ -70,6 +70,7 @@ Status Planner::configure(const PlannerParams& params, const VehicleParams& vehi
   geometry_ = geometry;
   window_ = polar_window(geometry, polar);
   table_ = table;
+  sum_histogram_ = sum;
   circles_ = {.radius_m = params.turning_radius_m,
               .enlargement_m = enlargement_m,
               .active_radius_m = params.active_radius_m};
@@ -85,7 +86,7 @@ Status Planner::plan(ImageView<const std::uint8_t> type, const PlanInput& input,
   if (!finite(input)) return Status::bad_argument;
 
   Plan next;
-  const Status summed = polar_histogram_ref(type, table_, next.histogram, window_);
+  const Status summed = sum_histogram_(type, table_, next.histogram, window_);
   if (summed != Status::ok) return summed;
   block_sectors(input.heading_change, state, next);
   next.masked = mask_turning_circles(next.binary, type, geometry_, circles_);

@@ -76,9 +76,9 @@ class Planner {
   // Keeps `table`, polar_table_entries(geometry) entries of the caller's, and fills it. bad_argument: a geometry or
   // radius outside the limits of polar_histogram.h, a name other than "vfh+" and "vfh", an `unknown` other than "stop"
   // and "slow", a vfh_smoothing or vfh_stop_density outside the limits of vfh.h. Call again for other parameters. The
-  // only function here that allocates (the names' copies).
+  // only function here that allocates (the names' copies). `sum` is the implementation of the histogram to use.
   Status configure(const PlannerParams& params, const VehicleParams& vehicle, const GridGeometry& geometry,
-                   std::span<PolarEntry> table);
+                   std::span<PolarEntry> table, decltype(&polar_histogram_ref) sum = polar_histogram_simd);
 
   // `type` is rows x cols (else size_mismatch), the angles are finite (else bad_argument); on a refusal nothing is
   // written. Does not allocate.
@@ -96,6 +96,7 @@ class Planner {
   GridGeometry geometry_;
   PolarWindow window_;
   std::span<const PolarEntry> table_;
+  decltype(&polar_histogram_ref) sum_histogram_ = polar_histogram_simd;
   TurningCircles circles_;
   GovernorParams governor_;
   bool creep_ = false;

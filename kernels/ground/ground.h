@@ -9,8 +9,8 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 
+#include "kernels/base/image_view.h"
 #include "kernels/base/status.h"
 #include "kernels/prune/prune.h"
 
@@ -28,10 +28,12 @@ inline constexpr int kGroundContrast = 3;
 inline constexpr int kGroundEnoughPercent = 60;
 inline constexpr int kGroundMinImagePercent = 2;
 
-// Adds the residuals of row v to the histogram: pixels with a disparity nearer than the model's limit, where the
-// floor can be matched and lies nearer than that limit itself.
-void ground_residuals_row_ref(const PruneModel& mount, int v, std::span<const std::int16_t> disparity,
-                              GroundHistogram& histogram);
+// Adds the residuals of the rows to the histogram: pixels with a disparity nearer than the model's limit, where the
+// floor can be matched and lies nearer than that limit itself. bad_argument (rows).
+Status ground_residuals_ref(const PruneModel& mount, ImageView<const std::int16_t> disparity, Rows rows,
+                            GroundHistogram& histogram);
+Status ground_residuals_simd(const PruneModel& mount, ImageView<const std::int16_t> disparity, Rows rows,
+                             GroundHistogram& histogram);
 
 // The floor's offset in 1/16 px within +-range16 (at most kGroundReach): the mean residual of the fullest window
 // (of two equally full ones the one nearer 0, then the positive one); 0 when none stands out. `pixels`: of the

@@ -2,6 +2,7 @@
 #include <cstdlib>
 
 #include "kernels/base/integer.h"
+#include "kernels/base/units.h"
 #include "kernels/ground/ground.h"
 
 namespace lakshya {
@@ -37,17 +38,20 @@ bool stands_out(const Window& best, std::int64_t total, int range, std::int64_t 
 
 }  // namespace
 
-void ground_residuals_row_ref(const PruneModel& mount, int v, std::span<const std::int16_t> disparity,
-                              GroundHistogram& histogram) {
-  for (std::size_t i = 0; i < disparity.size(); ++i) {
-    const std::int64_t d = std::int64_t{disparity[i]} << kDisparityToQ16;
-    const std::int64_t floor = mount.floor.at(static_cast<int>(i), v);
-    const std::int64_t nearest_limit = mount.min_disparity;
-    if (disparity[i] <= 0 || d < nearest_limit || floor < nearest_limit || floor > mount.max_floor_disparity)
-      continue;
-    const std::int64_t residual = (d - floor + (1 << (kDisparityToQ16 - 1))) >> kDisparityToQ16;
-    if (std::abs(residual) <= kGroundReach) ++histogram[bin(residual)];
+Status ground_residuals_ref(const PruneModel& mount, ImageView<const std::int16_t> disparity, Rows rows,
+                            GroundHistogram& histogram) {
+  if (!rows_inside(rows, disparity)) return Status::bad_argument;
+  const std::int64_t nearest_limit = mount.min_disparity;
+  for (int v = rows.begin; v < rows.end; ++v) {
+    for (int u = 0; u < disparity.width; ++u) {
+      const std::int64_t d = std::int64_t{disparity.at(u, v)} << kDisparityToQ16;
+      const std::int64_t floor = mount.floor.at(u, v);
+      if (d <= 0 || d < nearest_limit || floor < nearest_limit || floor > mount.max_floor_disparity) continue;
+      const std::int64_t residual = (d - floor + (1 << (kDisparityToQ16 - 1))) >> kDisparityToQ16;
+      if (std::abs(residual) <= kGroundReach) ++histogram[bin(residual)];
+    }
   }
+  return Status::ok;
 }
 
 std::int32_t ground_offset(const GroundHistogram& histogram, std::int32_t range16, std::int64_t pixels) {

@@ -2,10 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 #include <random>
 #include <vector>
 
+#include "tests/support/each_isa.h"
+#include "tests/support/test_image.h"
 #include "tests/support/test_prune_model.h"
 
 namespace lakshya {
@@ -27,10 +32,16 @@ PruneGeometry camera() {
 
 using Model = test::TestPruneModel;
 
+// Row v of some image.
+void add_row(const PruneModel& mount, int v, const std::vector<std::int16_t>& row, GroundHistogram& h) {
+  const ImageView<const std::int16_t> image(row.data(), static_cast<int>(row.size()), v + 1, 0);
+  ASSERT_EQ(ground_residuals_ref(mount, image, {v, v + 1}, h), Status::ok);
+}
+
 GroundHistogram residuals(const PruneModel& mount, const std::vector<std::vector<std::int16_t>>& image) {
   GroundHistogram h{};
   for (std::size_t v = 0; v < image.size(); ++v)
-    ground_residuals_row_ref(mount, static_cast<int>(v), image[v], h);
+    add_row(mount, static_cast<int>(v), image[v], h);
   return h;
 }
 
@@ -57,8 +68,7 @@ TEST(Ground, ResidualsByHand) {
   const Model m(camera());
   GroundHistogram h{};
   // v = 200: d_f = 20 px. Not counted: no disparity, too far, a residual out of reach.
-  ground_residuals_row_ref(m.prune, 200,
-                           std::vector<std::int16_t>{20 * 16, 20 * 16 + 3, 18 * 16, -4, 0, 16, 50 * 16}, h);
+  add_row(m.prune, 200, std::vector<std::int16_t>{20 * 16, 20 * 16 + 3, 18 * 16, -4, 0, 16, 50 * 16}, h);
   EXPECT_EQ(h[kGroundReach], 1U);
   EXPECT_EQ(h[kGroundReach + 3], 1U);
   EXPECT_EQ(h[kGroundReach - 32], 1U);
@@ -67,7 +77,7 @@ TEST(Ground, ResidualsByHand) {
     total += n;
   EXPECT_EQ(total, 3U);
   // Above the horizon there is no floor.
-  ground_residuals_row_ref(m.prune, 100, std::vector<std::int16_t>{5 * 16}, h);
+  add_row(m.prune, 100, std::vector<std::int16_t>{5 * 16}, h);
   EXPECT_EQ(h[kGroundReach], 1U);
 }
 
@@ -128,6 +138,74 @@ TEST(ShiftFloor, EqualsAModelOfThatPitchForSmallAngles) {
       ASSERT_NEAR(a, b, 0.01) << v;
     }
   }
+}
+
+// Cameras of every kind: level and rolled, floors that leave the search range, limits out of 16 bits.
+PruneGeometry any_camera(std::mt19937& random, int width) {
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  PruneGeometry g = camera();
+  g.focal_px = between(50, 1200);
+  g.baseline_m = between(0.02, 1.5);
+  g.center_u = between(0, width);
+  g.center_v = between(-20, 40);
+  g.height_m = between(0.05, 2);
+  g.pitch = between(-1, 1);
+  if (random() % 2 == 0) g.roll = between(-1, 1);
+  g.max_depth_m = between(0.1, 60);
+  g.max_disparity_px = between(16, 2040);
+  return g;
+}
+
+TEST(GroundSimd, EqualsTheReference) {
+  std::mt19937 random(7);
+  test::for_each_isa([&](const char* isa) {
+    std::uint64_t counted = 0;
+    for (int width : test::awkward_widths()) {
+      if (width == 203) width = 611;  // more than a piece
+      for (int trial = 0; trial < 12; ++trial) {
+        constexpr int kRows = 9;
+        const Model m(any_camera(random, width));
+        test::PaddedImage<std::int16_t> image(width, kRows);
+        test::fill_random(image.view(), random, -8, trial % 3 == 0 ? 32767 : 1500);
+        for (int v = 0; v < kRows && trial % 2 == 0; ++v) {
+          for (int u = 0; u < width; ++u) {  // near the floor
+            const std::int64_t d =
+                (m.prune.floor.at(u, v) >> kDisparityToQ16) + static_cast<int>(random() % 600) - 300;
+            image.view().at(u, v) = static_cast<std::int16_t>(std::clamp<std::int64_t>(d, -8, 32767));
+          }
+        }
+        GroundHistogram expected{};
+        GroundHistogram found{};
+        ASSERT_EQ(ground_residuals_ref(m.prune, image.view(), {0, kRows}, expected), Status::ok);
+        for (const Rows rows : {Rows{0, 2}, Rows{2, 2}, Rows{2, kRows}})
+          ASSERT_EQ(ground_residuals_simd(m.prune, image.view(), rows, found), Status::ok);
+        ASSERT_EQ(found, expected) << isa << " width " << width << " trial " << trial;
+        counted += std::accumulate(found.begin(), found.end(), std::uint64_t{0});
+      }
+    }
+    EXPECT_GT(counted, 3000U);
+  });
+}
+
+TEST(GroundSimd, ARowThatDoesNotFitIsTheReferences) {
+  Model m(camera());
+  m.prune.floor.per_u = std::int64_t{1} << 33;  // 2 px in column 1 of Q16 is far out of 32 bits in column 64
+  m.prune.floor.constant = 20 << 16;
+  m.prune.floor.per_v = 0;
+  const test::PaddedImage<std::int16_t> image(70, 2, 3, std::int16_t{20 * 16});
+  GroundHistogram expected{};
+  GroundHistogram found{};
+  ASSERT_EQ(ground_residuals_ref(m.prune, image.view(), {0, 2}, expected), Status::ok);
+  ASSERT_EQ(ground_residuals_simd(m.prune, image.view(), {0, 2}, found), Status::ok);
+  EXPECT_EQ(found, expected);
+}
+
+TEST(GroundSimd, RefusesRowsOutside) {
+  const Model m(camera());
+  const test::PaddedImage<std::int16_t> image(4, 3);
+  GroundHistogram h{};
+  EXPECT_EQ(ground_residuals_simd(m.prune, image.view(), {0, 4}, h), Status::bad_argument);
+  EXPECT_EQ(ground_residuals_ref(m.prune, image.view(), {0, 4}, h), Status::bad_argument);
 }
 
 }  // namespace
