@@ -12,6 +12,7 @@
 #include "app/tools/accuracy_report.h"
 #include "app/tools/options.h"
 #include "app/tools/output_folder.h"
+#include "app/tools/progress.h"
 
 namespace lakshya {
 namespace {
@@ -75,25 +76,6 @@ std::vector<ListedPair> read_list(const AccuracyOptions& o) {
     throw InputError(o.pairs, std::string("list of pairs: ") + e.what() + " (see perf/accuracy_pairs.json)");
   }
 }
-
-// One line that is written over: [#####.....] 12/34 name
-class Progress {
- public:
-  explicit Progress(std::size_t steps) : steps_(steps) {}
-  ~Progress() { std::cerr << "\r\033[K" << std::flush; }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-  void next(const std::string& what) {
-    constexpr std::size_t kWidth = 30;
-    const std::size_t filled = kWidth * done_ / steps_;
-    std::cerr << "\r\033[K[" << std::string(filled, '#') << std::string(kWidth - filled, '.') << "] " << ++done_
-              << "/" << steps_ << " " << what << std::flush;
-  }
-
- private:
-  std::size_t steps_;
-  std::size_t done_ = 0;
-};
 
 void run_accuracy(const AccuracyOptions& o) {
   const VehicleConfig config = load_vehicle_config(o.config.config, o.config.profile, o.config.sets);

@@ -1,4 +1,5 @@
-#include <opencv2/calib3d.hpp>
+#include "app/tools/opencv_matchers.h"
+
 #include <stdexcept>
 
 #include "app/tools/disparity_estimate.h"
@@ -20,7 +21,9 @@ constexpr int kSpeckleRange = 2;
 
 constexpr const char* kNames[] = {"opencv-bm", "opencv-sgbm", "opencv-sgbm-3way"};
 
-cv::Ptr<cv::StereoMatcher> make_matcher(const std::string& name, int disparities, int min_disparity) {
+}  // namespace
+
+cv::Ptr<cv::StereoMatcher> make_opencv_matcher(const std::string& name, int disparities, int min_disparity) {
   if (name == kNames[0]) {
     const cv::Ptr<cv::StereoBM> bm = cv::StereoBM::create(disparities, kBlockSizeBm);
     bm->setMinDisparity(min_disparity);
@@ -36,12 +39,9 @@ cv::Ptr<cv::StereoMatcher> make_matcher(const std::string& name, int disparities
                                 kUniqueness, kSpeckleWindow, kSpeckleRange, mode);
 }
 
-// OpenCV reads these only.
-cv::Mat as_mat(const Image<std::uint8_t>& image) {
+cv::Mat opencv_view(const Image<std::uint8_t>& image) {
   return {image.height(), image.width(), CV_8UC1, const_cast<std::uint8_t*>(image.view().data)};
 }
-
-}  // namespace
 
 std::span<const char* const> opencv_matcher_names() {
   return kNames;
@@ -49,11 +49,11 @@ std::span<const char* const> opencv_matcher_names() {
 
 DisparityEstimate match_pair_opencv(const std::string& name, int disparities, int min_disparity,
                                     const Image<std::uint8_t>& left, const Image<std::uint8_t>& right) {
-  const cv::Ptr<cv::StereoMatcher> matcher = make_matcher(name, disparities, min_disparity);
+  const cv::Ptr<cv::StereoMatcher> matcher = make_opencv_matcher(name, disparities, min_disparity);
   cv::Mat found;
   const MonotonicClock clock;
   const Nanoseconds start = clock.now();
-  matcher->compute(as_mat(left), as_mat(right), found);
+  matcher->compute(opencv_view(left), opencv_view(right), found);
   const Nanoseconds took = clock.now() - start;
   DisparityEstimate estimate{Image<std::int16_t>(left.width(), left.height()), static_cast<double>(took) * 1e-6};
   static_assert(kDisparityScale == cv::StereoMatcher::DISP_SCALE);
