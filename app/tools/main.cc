@@ -7,6 +7,7 @@
 #include "app/core/input_error.h"
 #include "app/tools/accuracy_command.h"
 #include "app/tools/compare_command.h"
+#include "app/tools/bench_command.h"
 #include "app/tools/config_command.h"
 #include "app/tools/eval_command.h"
 #include "app/tools/plan_command.h"
@@ -33,6 +34,7 @@ int run(int argc, char** argv) {
   lakshya::add_accuracy_command(app);
   lakshya::add_compare_command(app);
   lakshya::add_profile_command(app);
+  lakshya::add_bench_command(app);
   lakshya::add_config_command(app);
   try {
     app.parse(argc, argv);

@@ -1,0 +1,169 @@
+#include "app/tools/bench_kernels.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <array>
+
+#include "app/tools/bench_subjects.h"
+#include "kernels/base/isa.h"
+#include "kernels/base/peak.h"
+
+namespace lakshya {
+namespace {
+
+// Selecting from the costs S (16 bits): left winner minimum 2 and index 2, uniqueness compare 2 and count 2, right
+// winner minimum 2 and index 2.
+constexpr double kSelect = 12;
+// Distance of 32-bit codes: exclusive or 4, population count 4, to one byte 4.
+constexpr double kHamming = 12;
+// Sum over a window that slides down and right, 16 bits: a row of costs enters the columns and one leaves (2 + 2), a column
+// enters the window and one leaves (2 + 2).
+constexpr double kWindow = 8;
+
+constexpr KernelWork kWork[] = {
+    // Position to address and fractions 6 operations on 32 bits, four products and three sums on 16 bits with the
+    // rounding 12: 24 + 24. The map 6, raw and rectified pixel 1 each.
+    {"rectify", "sgm", false, 48, 8},
+    // 31 comparisons, each maximum, equality, mask and collect: 124. Grey value 1, code 4; both images, so twice.
+    {"census", "sgm", false, 2 * 124, 2 * 5},
+    // Absolute difference 3, sum over the window in two directions on 16 bits 8, compare 2. Grey value and flag.
+    {"texture", "sgm", false, 13, 2},
+    // 81 products share 15 coefficients by symmetry: 66 sums on 16 bits, 15 products and 14 sums on 32, scale and
+    // clamp 6: 132 + 60 + 56 + 6. Grey value and edge; both images.
+    {"edge_log", "sad", false, 2 * 254, 2 * 2},
+    // Hamming; mean over 3x3: two sums of bytes, two sums, rounding, shift and narrowing on 16 bits: 2 + 10; three paths,
+    // each two neighbours minimum and P1 2, stay 1, jump 1, cost 1, minus least 1, the new least 1: 21; their sum on 16 bits
+    // 6; selection. Rows of costs and paths do not fit in the first-level cache: distances out 1 and in 3, cost out
+    // 1 and in 3, path above in 1 and out 1, sums in and out 2 + 2, in for the selection 2.
+    {"sgm", "sgm", true, kHamming + 12 + 21 + 6 + kSelect, 16},
+    // The ring of rows out 1 and in 1, columns in and out 2 + 2, sums out and in 2 + 2.
+    {"census_block", "census", true, kHamming + kWindow + kSelect, 10},
+    // The distance is two saturated differences and their union.
+    {"sad_block", "sad", true, 3 + kWindow + kSelect, 10},
+    // 81 neighbours on 16 bits: difference, compare, mask, count. Disparity in and out.
+    {"support", "sgm", false, 81 * 8, 4},
+    // On 32 bits: bounds 5, compares 5; class 10, where the point goes 20. Disparity 2, class 1, half a point 6.
+    {"reproject_prune_row", "sgm", false, 70, 9},
+};
+
+// Stands in a kernel's place in the table and adds up the time it takes. One at a time: see GivenMatch.
+template <auto kMember>
+class Stopwatch {
+ public:
+  static void put_into(KernelTable& table) {
+    original() = table.*kMember;
+    table.*kMember = call;
+  }
+  static double take_ms() { return static_cast<double>(std::exchange(total(), 0)) * 1e-6; }
+
+ private:
+  using Kernel = std::remove_reference_t<decltype(std::declval<KernelTable&>().*kMember)>;
+  static Kernel& original() {
+    static Kernel kernel = nullptr;
+    return kernel;
+  }
+  static Nanoseconds& total() {
+    static Nanoseconds total = 0;
+    return total;
+  }
+  // Deduced from the table's entry, whatever its parameters are.
+  template <class... Arguments>
+  static Status call(Arguments... arguments) {
+    const Clock& clock = bench_clock();
+    const Nanoseconds start = clock.now();
+    const Status status = original()(arguments...);
+    total() += clock.now() - start;
+    return status;
+  }
+};
+
+struct WatchedKernel {
+  std::string_view name;
+  void (*put_into)(KernelTable& table);
+  double (*take_ms)();
+};
+
+#define LAKSHYA_WATCHED(member)                                                                        \
+  WatchedKernel {                                                                                      \
+#member, Stopwatch < &KernelTable::member> ::put_into, Stopwatch < &KernelTable::member> ::take_ms \
+  }
+const WatchedKernel kWatched[] = {
+    LAKSHYA_WATCHED(rectify),   LAKSHYA_WATCHED(census),  LAKSHYA_WATCHED(texture),
+    LAKSHYA_WATCHED(edge_log),  LAKSHYA_WATCHED(sgm),     LAKSHYA_WATCHED(census_block),
+    LAKSHYA_WATCHED(sad_block), LAKSHYA_WATCHED(support), LAKSHYA_WATCHED(reproject_prune_row),
+};
+#undef LAKSHYA_WATCHED
+
+const WatchedKernel& watched(std::string_view name) {
+  return *std::find_if(std::begin(kWatched), std::end(kWatched),
+                       [&](const WatchedKernel& k) { return k.name == name; });
+}
+
+}  // namespace
+
+std::vector<KernelTime> time_kernels(const BenchSetting& setting, int runs) {
+  omp_set_num_threads(1);
+  const MatcherConfig& m = setting.config.matcher;
+  const BenchInput input = make_bench_input(setting.width, setting.height, m.disparities, setting.pair);
+  const double pixels = static_cast<double>(setting.width) * setting.height;
+  std::vector<KernelTime> result;
+  for (const char* matcher : {"sgm", "census", "sad"}) {
+    KernelTable table = setting.kernels;
+    for (const WatchedKernel& kernel : kWatched)
+      kernel.put_into(table);
+    VehicleConfig config = setting.config;
+    config.matcher.name = matcher;
+    PipelineSubject frame(config, table, input);
+    std::array<std::vector<double>, std::size(kWork)> times;
+    for (int run = -1; run < runs; ++run) {  // the first one warms up
+      (void)frame.run();
+      for (std::size_t i = 0; i < std::size(kWork); ++i) {
+        if (std::string_view(kWork[i].matcher) != matcher) continue;
+        const double ms = watched(kWork[i].name).take_ms();
+        if (run >= 0) times[i].push_back(ms);
+      }
+    }
+    for (std::size_t i = 0; i < std::size(kWork); ++i) {
+      if (times[i].empty()) continue;
+      // Both images are rectified; census and edge_log count them in their operations.
+      const double images = std::string_view(kWork[i].name) == "rectify" ? 2 : 1;
+      const double items = images * pixels * (kWork[i].per_disparity ? m.disparities : 1);
+      result.push_back({active_isa(), kWork[i], median(times[i]), items});
+    }
+  }
+  return result;
+}
+
+MachinePeak measure_peak() {
+  // Best of several: a peak is what nothing disturbed.
+  const auto best_rate = [](const auto& work) {
+    constexpr int kTries = 7;
+    const Clock& clock = bench_clock();
+    double best = 0;
+    for (int i = 0; i < kTries; ++i) {
+      const Nanoseconds start = clock.now();
+      const PeakWork done = work();
+      const double seconds = static_cast<double>(std::max<Nanoseconds>(clock.now() - start, 1)) * 1e-9;
+      best = std::max(best, static_cast<double>(done.count) / seconds);
+    }
+    return best;
+  };
+  constexpr std::int64_t kRounds = 2'000'000;
+  constexpr std::size_t kL2Bytes = 512 << 10;  // more than a first-level, less than a second-level cache
+  constexpr int kL2Repeats = 200;
+  constexpr std::size_t kMemoryBytes = std::size_t{512} << 20;  // more than any cache
+  const std::vector<std::uint8_t> memory(kMemoryBytes, 1);
+  MachinePeak peak{active_isa()};
+  peak.operations_per_s = best_rate([] { return peak_operations_simd(kRounds); });
+  peak.l2_bytes_per_s = best_rate([&] {
+    PeakWork sum;
+    for (int i = 0; i < kL2Repeats; ++i)
+      sum.count += peak_read_simd(std::span(memory).first(kL2Bytes)).count;
+    return sum;
+  });
+  peak.memory_bytes_per_s = best_rate([&] { return peak_read_simd(memory); });
+  return peak;
+}
+
+}  // namespace lakshya
