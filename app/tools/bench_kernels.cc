@@ -136,33 +136,30 @@ std::vector<KernelTime> time_kernels(const BenchSetting& setting, int runs) {
 }
 
 MachinePeak measure_peak() {
-  // Best of several: a peak is what nothing disturbed.
-  const auto best_rate = [](const auto& work) {
-    constexpr int kTries = 7;
+  // Best of many short pieces: a peak is what nothing disturbed.
+  const auto best_rate = [](int pieces, const auto& work) {
     const Clock& clock = bench_clock();
     double best = 0;
-    for (int i = 0; i < kTries; ++i) {
+    for (int i = 0; i < pieces; ++i) {
       const Nanoseconds start = clock.now();
-      const PeakWork done = work();
+      const PeakWork done = work(i);
       const double seconds = static_cast<double>(std::max<Nanoseconds>(clock.now() - start, 1)) * 1e-9;
       best = std::max(best, static_cast<double>(done.count) / seconds);
     }
     return best;
   };
-  constexpr std::int64_t kRounds = 2'000'000;
+  constexpr std::int64_t kRounds = 100'000;
   constexpr std::size_t kL2Bytes = 512 << 10;  // more than a first-level, less than a second-level cache
-  constexpr int kL2Repeats = 200;
-  constexpr std::size_t kMemoryBytes = std::size_t{512} << 20;  // more than any cache
+  constexpr std::size_t kMemoryBytes = std::size_t{512} << 20;  // more than any cache, read round and round
+  constexpr std::size_t kPiece = std::size_t{8} << 20;
   const std::vector<std::uint8_t> memory(kMemoryBytes, 1);
+  const std::span<const std::uint8_t> bytes(memory);
   MachinePeak peak{active_isa()};
-  peak.operations_per_s = best_rate([] { return peak_operations_simd(kRounds); });
-  peak.l2_bytes_per_s = best_rate([&] {
-    PeakWork sum;
-    for (int i = 0; i < kL2Repeats; ++i)
-      sum.count += peak_read_simd(std::span(memory).first(kL2Bytes)).count;
-    return sum;
+  peak.operations_per_s = best_rate(500, [](int /*piece*/) { return peak_operations_simd(kRounds); });
+  peak.l2_bytes_per_s = best_rate(5000, [&](int /*piece*/) { return peak_read_simd(bytes.first(kL2Bytes)); });
+  peak.memory_bytes_per_s = best_rate(3 * kMemoryBytes / kPiece, [&](int piece) {
+    return peak_read_simd(bytes.subspan(static_cast<std::size_t>(piece) * kPiece % kMemoryBytes, kPiece));
   });
-  peak.memory_bytes_per_s = best_rate([&] { return peak_read_simd(memory); });
   return peak;
 }
 

@@ -23,9 +23,9 @@ Rgb8 series_color(std::size_t i) {
 struct Axis {
   double low = 0;
   double high = 1;
-  bool logarithmic = false;
+  double factor = 0;  // from tick to tick of a logarithmic axis; 0: linear
   double share(double value) const {
-    if (!logarithmic) return (value - low) / (high - low);
+    if (factor == 0) return (value - low) / (high - low);
     return std::log(std::max(value, low) / low) / std::log(high / low);
   }
 };
@@ -41,8 +41,8 @@ struct Plot {
 
 std::vector<double> ticks(const Axis& axis) {
   std::vector<double> values;
-  if (axis.logarithmic) {
-    for (double v = axis.low; v <= axis.high * 1.001; v *= axis.high / axis.low > 200 ? 10 : 2)
+  if (axis.factor > 0) {
+    for (double v = axis.low; v <= axis.high * 1.001; v *= axis.factor)
       values.push_back(v);
   } else {
     const double step = round_step((axis.high - axis.low) / 10);
@@ -106,7 +106,7 @@ Image<Rgb8> speedup_plot(const SuiteResults& results) {
         high *= 2;
     }
   }
-  const Plot plot{{60, 110, 1410, 470}, {0, 1, false}, {low, high, true}};
+  const Plot plot{{60, 110, 1410, 470}, {0, 1}, {low, high, 2}};
   draw_y_axis(sheet, plot, "speed-up, each doubling one step; thick line: equally fast");
   const auto& rows = results.settings.front().rows;
   const auto with_peer =
@@ -150,7 +150,7 @@ Image<Rgb8> speedup_plot(const SuiteResults& results) {
 }
 
 Image<Rgb8> scaling_plot(const SuiteResults& results) {
-  Canvas sheet(1200, 760, kPaper);
+  Canvas sheet(1280, 760, kPaper);
   sheet.text({70, 40}, "Time against work, one thread, " + results.scaling.front().isa, kTitleText, kInk);
   constexpr std::array<const char*, 4> kRows{"sad", "census", "sgm", "frame"};
   double most_x = 0;
@@ -161,7 +161,7 @@ Image<Rgb8> scaling_plot(const SuiteResults& results) {
       most_y = std::max(most_y, p.y);
     }
   }
-  const Plot plot{{70, 90, 800, 580}, {0, 1.05 * most_x, false}, {0, 1.08 * most_y, false}};
+  const Plot plot{{70, 90, 800, 580}, {0, 1.05 * most_x}, {0, 1.08 * most_y}};
   draw_y_axis(sheet, plot, "ms");
   draw_x_axis(sheet, plot, "pixels x disparities, millions");
   sheet.frame(plot.box, kFaintInk);
@@ -191,8 +191,8 @@ Image<Rgb8> roofline_plot(const SuiteResults& results) {
   for (const KernelTime& k : results.kernels)
     low = std::min(low, 0.5e-9 * k.operations_per_s());
   const Plot plot{{80, 90, 900, 640},
-                  {0.5, 512, true},
-                  {std::pow(10, std::floor(std::log10(low))), std::pow(10, std::ceil(std::log10(high))), true}};
+                  {0.5, 512, 2},
+                  {std::pow(10, std::floor(std::log10(low))), std::pow(10, std::ceil(std::log10(high))), 10}};
   draw_y_axis(sheet, plot, "10^9 operations on one byte per second");
   draw_x_axis(sheet, plot, "operations per byte from beyond the first-level cache");
   sheet.frame(plot.box, kFaintInk);
