@@ -12,9 +12,10 @@
 namespace lakshya {
 namespace {
 
-// Selecting from the costs S (16 bits): left winner minimum 2 and index 2, uniqueness compare 2 and count 2, right
-// winner minimum 2 and index 2.
-constexpr double kSelect = 12;
+// Selecting from the costs S, each on lanes of so many bytes: left winner's minimum and place 2, uniqueness 2, right
+// winner's minimum and place 4.
+constexpr double kSelectBytes = 8;
+constexpr double kSelectWords = 16;
 // Distance of 32-bit codes: exclusive or 4, population count 4, to one byte 4.
 constexpr double kHamming = 12;
 // Sum over a window that slides down and right, 16 bits: a row of costs enters the columns and one leaves (2 + 2), a column
@@ -32,15 +33,16 @@ constexpr KernelWork kWork[] = {
     // 81 products share 15 coefficients by symmetry: 66 sums on 16 bits, 15 products and 14 sums on 32, scale and
     // clamp 6: 132 + 60 + 56 + 6. Grey value and edge; both images.
     {"edge_log", "sad", false, 2 * 254, 2 * 2},
-    // Hamming; mean over 3x3: two sums of bytes, two sums, rounding, shift and narrowing on 16 bits: 2 + 10; three paths,
-    // each two neighbours minimum and P1 2, stay 1, jump 1, cost 1, minus least 1, the new least 1: 21; their sum on 16 bits
-    // 6; selection. Rows of costs and paths do not fit in the first-level cache: distances out 1 and in 3, cost out
-    // 1 and in 3, path above in 1 and out 1, sums in and out 2 + 2, in for the selection 2.
-    {"sgm", "sgm", true, kHamming + 12 + 21 + 6 + kSelect, 16},
+    // Distance; mean over 3x3: sums of three rows 2, of three columns and the rounding on 16 bits 8, narrowing 2; three
+    // paths, each two neighbours' minimum and P1 2, stay 1, jump 1, cost 1, minus the least 1, the new least 1; their sum
+    // 2; selection. The rows of distances, path costs and sums do not fit in the first-level cache: distances out 1
+    // and in 3, path from the right out 1 and in 1, path from above in 1 and out 1, sums out 1, in for the right
+    // winner 1.
+    {"sgm", "sgm", true, kHamming + 12 + 21 + 2 + kSelectBytes, 10},
     // The ring of rows out 1 and in 1, columns in and out 2 + 2, sums out and in 2 + 2.
-    {"census_block", "census", true, kHamming + kWindow + kSelect, 10},
+    {"census_block", "census", true, kHamming + kWindow + kSelectWords, 10},
     // The distance is two saturated differences and their union.
-    {"sad_block", "sad", true, 3 + kWindow + kSelect, 10},
+    {"sad_block", "sad", true, 3 + kWindow + kSelectWords, 10},
     // 81 neighbours on 16 bits: difference, compare, mask, count. Disparity in and out.
     {"support", "sgm", false, 81 * 8, 4},
     // On 32 bits: bounds 5, compares 5; class 10, where the point goes 20. Disparity 2, class 1, half a point 6.
