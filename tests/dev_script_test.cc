@@ -50,11 +50,15 @@ class DevScript : public testing::Test {
     std::ofstream(folder_ / path) << "x";
   }
 
-  void add_target(const std::string& reader, const std::string& body) const {
-    const fs::path file = folder_ / "build/fuzz/tests/fuzz" / ("fuzz_" + reader);
+  void add_program(const std::string& path, const std::string& body) const {
+    const fs::path file = folder_ / path;
     fs::create_directories(file.parent_path());
     std::ofstream(file) << "#!/bin/sh\n" << body << "\n";
     fs::permissions(file, fs::perms::owner_all);
+  }
+
+  void add_target(const std::string& reader, const std::string& body) const {
+    add_program("build/fuzz/tests/fuzz/fuzz_" + reader, body);
   }
 
   // From another folder than the checkout.
@@ -154,6 +158,24 @@ TEST_F(DevScript, TestsKernelsOnArmWithEveryVectorLength) {
   EXPECT_TRUE(contains(one.output, "--tests-regex ^(kernels\\.sgm)$\n")) << one.output;
   EXPECT_EQ(dev("test-arm pipeline").status, 2);
   EXPECT_EQ(dev("test-arm nothing").status, 2);
+}
+
+TEST_F(DevScript, BenchRunsEverythingBesideOpencvOrAModulesMicroBenchmarks) {
+  if (!is_debian_12()) GTEST_SKIP() << "only Debian 12 is set up by the script";
+  add_file("perf/kernels/census_bench.cc");
+  add_program("build/host/app/tools/lakshya", "echo lakshya \"$@\"");
+  add_program("build/host/perf/kernels_census_bench", "echo micro");
+  stand_in("cmake", "echo cmake \"$@\"");
+  const Result all = dev("bench --quick");
+  EXPECT_EQ(all.status, 0);
+  EXPECT_TRUE(contains(all.output, "--target lakshya\n")) << all.output;
+  EXPECT_TRUE(contains(all.output, "lakshya bench --out out/bench --quick\n")) << all.output;
+  EXPECT_FALSE(contains(all.output, "micro")) << all.output;
+  const Result one = dev("bench census");
+  EXPECT_EQ(one.status, 0);
+  EXPECT_TRUE(contains(one.output, "--target kernels_census_bench\n")) << one.output;
+  EXPECT_TRUE(contains(one.output, "\nmicro\n")) << one.output;
+  EXPECT_EQ(dev("bench nothing").status, 2);
 }
 
 TEST_F(DevScript, FuzzesTheReadersAndNamesTheReproducer) {
