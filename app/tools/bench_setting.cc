@@ -44,8 +44,7 @@ class Bench {
       : s_(setting),
         before_(before),
         input_(make_bench_input(s_.width, s_.height, s_.config.matcher.disparities, s_.pair)),
-        frame_(s_.config, s_.kernels, input_),
-        reference_frame_(s_.config, kReferenceKernels, input_) {
+        frame_(s_.config, s_.kernels, input_) {
     keep_disparity();
   }
 
@@ -72,8 +71,11 @@ class Bench {
     return std::find(s_.rows.begin(), s_.rows.end(), row) != s_.rows.end();
   }
 
-  std::optional<double> reference_ms(const BenchTask& task) const {
+  // `make` gives the task; what it needs is only made when it is wanted.
+  template <class Make>
+  std::optional<double> reference_ms(const Make& make) const {
     if (s_.reference_runs < 1) return {};
+    const BenchTask task = make();
     std::vector<double> times;
     for (int i = 0; i < s_.reference_runs; ++i)
       times.push_back(task());
@@ -116,8 +118,9 @@ class Bench {
     std::vector<BenchTask> tasks{subject.stage_task(stage)};
     if (peer_task) tasks.push_back(peer_task);
     const std::vector<double> ms = interleaved_medians(tasks, s_.rounds);
-    PipelineSubject slow(s_.config, reference, input_);
-    BenchRow row{name, ms[0], reference_ms(slow.stage_task(stage)), peer, {}};
+    std::optional<PipelineSubject> slow;
+    const auto slow_task = [&] { return slow.emplace(s_.config, reference, input_).stage_task(stage); };
+    BenchRow row{name, ms[0], reference_ms(slow_task), peer, {}};
     if (peer_task) row.peer_ms = ms[1];
     result_.rows.push_back(row);
   }
@@ -133,8 +136,9 @@ class Bench {
     for (const MatchPeer& p : peers)
       tasks.push_back(opencv_match_task(p.opencv_name, config, input_));
     const std::vector<double> ms = interleaved_medians(tasks, s_.rounds);
-    MatchSubject slow(config, kReferenceKernels, input_);
-    const std::optional<double> reference = reference_ms(slow.task());
+    std::optional<MatchSubject> slow;
+    const std::optional<double> reference =
+        reference_ms([&] { return slow.emplace(config, kReferenceKernels, input_).task(); });
     for (std::size_t i = 0; i < peers.size(); ++i)
       result_.rows.push_back({peers[i].row, ms[0], reference, peers[i].peer, ms[i + 1]});
   }
@@ -144,15 +148,16 @@ class Bench {
     before_("frame");
     const std::vector<double> ms = interleaved_medians(
         {frame_.frame_task(), opencv_match_task("opencv-bm", s_.config.matcher, input_)}, s_.rounds);
+    std::optional<PipelineSubject> slow;
+    const auto slow_task = [&] { return slow.emplace(s_.config, kReferenceKernels, input_).frame_task(); };
     const std::string peer = std::string(kPeerBm) + ", disparity alone";
-    result_.rows.push_back({"frame", ms[0], reference_ms(reference_frame_.frame_task()), peer, ms[1]});
+    result_.rows.push_back({"frame", ms[0], reference_ms(slow_task), peer, ms[1]});
   }
 
   const BenchSetting& s_;
   const std::function<void(const std::string&)>& before_;
   BenchInput input_;
   PipelineSubject frame_;
-  PipelineSubject reference_frame_;
   Image<std::int16_t> disparity_;
   BenchResult result_;
 };
