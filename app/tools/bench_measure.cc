@@ -53,9 +53,13 @@ std::vector<double> interleaved_medians(const std::vector<BenchTask>& tasks, con
   const int count = rounds.rounds > 0 ? rounds.rounds
                                       : static_cast<int>(std::clamp<double>(affordable, rounds.least, rounds.most));
   std::vector<std::vector<double>> times(tasks.size());
+  MonotonicClock wall;
+  const auto rest = static_cast<Nanoseconds>(rounds.rest_ms * 1e6);
   for (int round = 0; round < count; ++round) {
-    for (std::size_t i = 0; i < tasks.size(); ++i)
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      if (rest > 0) wall.sleep_until(wall.now() + rest);
       times[i].push_back(tasks[i]());
+    }
   }
   std::vector<double> medians;
   for (const std::vector<double>& t : times)

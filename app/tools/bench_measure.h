@@ -23,7 +23,12 @@ struct BenchRounds {
   int least = 15;
   int most = 100;
   double budget_ms = 400;
+  double rest_ms = 0;  // before each task
 };
+
+// OpenMP's threads keep their processors busy for some time after their work (libgomp: 300,000 rounds, about 16 ms here),
+// which would be time taken from whoever runs next: from OpenCV.
+inline constexpr double kOpenMpRestMs = 20;
 
 double median(std::vector<double> values);
 

@@ -182,6 +182,7 @@ BenchResult run_bench(const BenchSetting& setting, const std::function<void(cons
   cv::setNumThreads(setting.threads);
   BenchSetting s = setting;
   s.config.matcher.bands = std::max(s.config.matcher.bands, s.threads);  // fewer would leave threads idle
+  if (s.threads > 1) s.rounds.rest_ms = kOpenMpRestMs;
   return Bench(s, before).run();
 }
 
