@@ -62,6 +62,7 @@ std::vector<double> interleaved_medians(const std::vector<BenchTask>& tasks, con
     }
   }
   std::vector<double> medians;
+  medians.reserve(times.size());
   for (const std::vector<double>& t : times)
     medians.push_back(median(t));
   return medians;

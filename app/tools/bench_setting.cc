@@ -77,6 +77,7 @@ class Bench {
     if (s_.reference_runs < 1) return {};
     const BenchTask task = make();
     std::vector<double> times;
+    times.reserve(static_cast<std::size_t>(s_.reference_runs));
     for (int i = 0; i < s_.reference_runs; ++i)
       times.push_back(task());
     return median(times);
@@ -91,9 +92,10 @@ class Bench {
     const double pixels = static_cast<double>(s_.width) * s_.height;
     const auto share = [&](PixelClass c) { return frame.pixels.by_class[static_cast<std::size_t>(c)] / pixels; };
     std::int64_t found = 0;
-    for (int v = 0; v < s_.height; ++v)
+    for (int v = 0; v < s_.height; ++v) {
       found += std::count_if(disparity_.view().row(v), disparity_.view().row(v) + s_.width,
                              [](std::int16_t d) { return d >= 0; });
+    }
     const MatcherConfig& m = s_.config.matcher;
     result_ = {s_.backend,
                active_isa(),

@@ -87,6 +87,7 @@ class Suite {
     results_.processor = processor_name() + ", " + std::to_string(usable_processors()) + " processors";
     results_.input = o_.pair.left.empty() ? "made-up scene" : o_.pair.left;
     all_settings();
+    results_.target.reserve(isas_.size());
     for (const std::string& isa : isas_)
       results_.target.push_back(target_frame(isa));
     for (const Size& size : plan_.scaling_sizes) {

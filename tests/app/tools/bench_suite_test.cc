@@ -23,6 +23,7 @@ BenchResult made_up(const std::string& isa, int width, int threads, double ms) {
   r.height = 100;
   r.disparities = 64;
   r.threads = threads;
+  r.rows.reserve(kBenchRows.size());
   for (const char* name : kBenchRows)
     r.rows.push_back({name, ms, {}, "peer", 3 * ms});
   r.rows[5].peer.clear();
