@@ -41,13 +41,12 @@ struct Plot {
 
 std::vector<double> ticks(const Axis& axis) {
   std::vector<double> values;
-  if (axis.factor > 0) {
-    for (double v = axis.low; v <= axis.high * 1.001; v *= axis.factor)
-      values.push_back(v);
-  } else {
-    const double step = round_step((axis.high - axis.low) / 10);
-    for (double v = std::ceil(axis.low / step) * step; v <= axis.high * 1.0001; v += step)
-      values.push_back(v);
+  const bool logarithmic = axis.factor > 0;
+  const double step = logarithmic ? 0 : round_step((axis.high - axis.low) / 10);
+  double value = logarithmic ? axis.low : std::ceil(axis.low / step) * step;
+  while (value <= axis.high * 1.001) {
+    values.push_back(value);
+    value = logarithmic ? value * axis.factor : value + step;
   }
   return values;
 }
