@@ -46,7 +46,7 @@ constexpr KernelWork kWork[] = {
     // 81 neighbours on 16 bits: difference, compare, mask, count. Disparity in and out.
     {"support", "sgm", false, 81 * 8, 4},
     // On 32 bits: bounds 5, compares 5; class 10, where the point goes 20. Disparity 2, class 1, half a point 6.
-    {"reproject_prune_row", "sgm", false, 70, 9},
+    {"project_rows", "sgm", false, 70, 9},
 };
 
 // Stands in a kernel's place in the table and adds up the time it takes. One at a time: see GivenMatch.
@@ -93,7 +93,7 @@ struct WatchedKernel {
 const WatchedKernel kWatched[] = {
     LAKSHYA_WATCHED(rectify),   LAKSHYA_WATCHED(census),  LAKSHYA_WATCHED(texture),
     LAKSHYA_WATCHED(edge_log),  LAKSHYA_WATCHED(sgm),     LAKSHYA_WATCHED(census_block),
-    LAKSHYA_WATCHED(sad_block), LAKSHYA_WATCHED(support), LAKSHYA_WATCHED(reproject_prune_row),
+    LAKSHYA_WATCHED(sad_block), LAKSHYA_WATCHED(support), LAKSHYA_WATCHED(project_rows),
 };
 #undef LAKSHYA_WATCHED
 

@@ -8,6 +8,7 @@
 #include "app/core/input_error.h"
 #include "app/core/matcher.h"
 #include "app/tools/opencv_matchers.h"
+#include "kernels/grid_bin/grid_bin.h"
 
 namespace lakshya {
 namespace {
@@ -79,7 +80,7 @@ BenchTask PipelineSubject::frame_task() {
 }
 
 BenchTask PipelineSubject::stage_task(Stage stage) {
-  return [this, stage] { return static_cast<double>(run().stage_time[static_cast<std::size_t>(stage)]) * 1e-6; };
+  return [this, stage] { return static_cast<double>(run().times.took[static_cast<std::size_t>(stage)]) * 1e-6; };
 }
 
 GivenMatch::GivenMatch(ImageView<const std::int16_t> disparity) {

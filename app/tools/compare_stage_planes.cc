@@ -3,35 +3,6 @@
 namespace lakshya {
 namespace {
 
-// The first counts[v] items of row v as three or four numbers each; what lies behind them means nothing.
-template <class Item, class... Members>
-void add_rows(Planes& planes, const std::string& what, const Image<Item>& items,
-              const std::vector<std::size_t>& counts, Members... members) {
-  planes.push_back(list_of(what + " in row", counts));
-  const auto view = items.view();
-  const auto add_member = [&](auto member) {
-    planes.push_back({what + " " + member.name, view.width, view.height, [view, &counts, member](int u, int v) {
-                        const bool is_item = static_cast<std::size_t>(u) < counts[static_cast<std::size_t>(v)];
-                        return is_item ? static_cast<double>(view.at(u, v).*member.pointer) : 0;
-                      }});
-  };
-  (add_member(members), ...);
-}
-
-template <class Item>
-struct Member {
-  const char* name;
-  std::int32_t Item::*pointer;
-};
-
-void add_strips(Planes& planes, const std::string& what, const Image<GroundStrip>& strips,
-                const std::vector<std::size_t>& counts) {
-  using M = Member<GroundStrip>;
-  add_rows(planes, what, strips, counts, M{"near forward mm", &GroundStrip::near_forward_mm},
-           M{"near left mm", &GroundStrip::near_left_mm}, M{"far forward mm", &GroundStrip::far_forward_mm},
-           M{"far left mm", &GroundStrip::far_left_mm});
-}
-
 Plane classes_plane(const ImageView<const PixelClass>& classes) {
   return plane_of("class", classes);
 }
@@ -117,19 +88,9 @@ Planes ground_planes(const StageOutputs& o) {
   return {list_of("residuals", o.residuals), list_of("offset", o.ground_offset16)};
 }
 
-Planes prune_planes(const StageOutputs& o) {
-  using M = Member<ObstaclePoint>;
+Planes project_planes(const StageOutputs& o) {
   Planes planes{classes_plane(o.classes.view())};
   add_counts(planes, o.counts);
-  add_rows(planes, "obstacle", o.obstacles, o.obstacles_in_row, M{"forward mm", &ObstaclePoint::forward_mm},
-           M{"left mm", &ObstaclePoint::left_mm}, M{"height mm", &ObstaclePoint::height_mm});
-  add_strips(planes, "floor", o.floor, o.floor_in_row);
-  add_strips(planes, "drop-off", o.below, o.below_in_row);
-  return planes;
-}
-
-Planes bin_planes(const StageOutputs& o) {
-  Planes planes;
   const OwnedGrid& g = o.binned;
   add_grid(planes, g.count.view(), g.height_sum.view(), g.floor_count.view(), g.below_count.view());
   return planes;
@@ -139,10 +100,8 @@ Planes score_planes(const StageOutputs& o) {
   return {plane_of("type", o.scored.type.view())};
 }
 
-Planes plan_planes(const StageOutputs& o) {
-  Planes planes;
-  add_plan(planes, o.plan);
-  return planes;
+Planes polar_histogram_planes(const StageOutputs& o) {
+  return {list_of("sector", o.polar_histogram)};
 }
 
 Planes frame_planes(const StageOutputs& o) {

@@ -16,10 +16,9 @@ Planes census_block_planes(const StageOutputs& out);
 Planes sad_block_planes(const StageOutputs& out);
 Planes support_planes(const StageOutputs& out);
 Planes ground_planes(const StageOutputs& out);
-Planes prune_planes(const StageOutputs& out);
-Planes bin_planes(const StageOutputs& out);
+Planes project_planes(const StageOutputs& out);
 Planes score_planes(const StageOutputs& out);
-Planes plan_planes(const StageOutputs& out);
+Planes polar_histogram_planes(const StageOutputs& out);
 Planes frame_planes(const StageOutputs& out);
 
 }  // namespace lakshya

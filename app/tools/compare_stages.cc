@@ -4,6 +4,7 @@
 
 #include "app/core/geometry.h"
 #include "app/tools/compare_stage_planes.h"
+#include "kernels/grid_bin/grid_bin.h"
 
 namespace lakshya {
 namespace {
@@ -35,13 +36,13 @@ void run_rectify(const CompareSetup& s, const StageOutputs& /*in*/, const Kernel
   out.right = copy_of(s.right);
   if (!s.remap) return;
   in_bands(s, out, [&](Rows rows) {
-    return std::max(k.rectify(s.left, s.maps_left.x.view(), s.maps_left.y.view(), rows, out.left.view()),
-                    k.rectify(s.right, s.maps_right.x.view(), s.maps_right.y.view(), rows, out.right.view()));
+    return std::max(k.rectify(s.left, s.maps_left.view(), rows, out.left.view()),
+                    k.rectify(s.right, s.maps_right.view(), rows, out.right.view()));
   });
 }
 
 void run_census(const CompareSetup& s, const StageOutputs& in, const KernelTable& k, StageOutputs& out) {
-  out.left_codes = out.right_codes = Image<std::uint32_t>(s.width, s.height);
+  out.left_codes = out.right_codes = Image<CensusCode>(s.width, s.height);
   in_bands(s, out, [&](Rows rows) {
     return std::max(k.census(in.left.view(), rows, out.left_codes.view()),
                     k.census(in.right.view(), rows, out.right_codes.view()));
@@ -137,41 +138,23 @@ ImageView<const std::int16_t> disparity_of(const CompareSetup& s, const StageOut
 void run_ground(const CompareSetup& s, const StageOutputs& in, const KernelTable& k, StageOutputs& out) {
   const ImageView<const std::int16_t> disparity = disparity_of(s, in);
   out.residuals.fill(0);
-  for (int v = 0; v < s.height; ++v)
-    k.ground_residuals_row(s.mount, v, row_span(disparity, v), out.residuals);
+  in_bands(s, out, [&](Rows rows) { return k.ground_residuals(s.mount, disparity, rows, out.residuals); });
   const std::int32_t range16 = disparity_of_pitch16(s.config, s.camera, s.config.prune.ground_range_deg);
   out.ground_offset16[0] = ground_offset(out.residuals, range16, std::int64_t{s.width} * s.height);
 }
 
-void run_prune(const CompareSetup& s, const StageOutputs& in, const KernelTable& k, StageOutputs& out) {
+void run_project(const CompareSetup& s, const StageOutputs& in, const KernelTable& k, StageOutputs& out) {
   const ImageView<const std::int16_t> disparity = disparity_of(s, in);
   const PruneModel model = shift_floor(s.mount, std::int64_t{in.ground_offset16[0]} << kDisparityToQ16);
+  const Scratch scratch(project_scratch_bytes(s.width));
   out.classes = Image<PixelClass>(s.width, s.height);
-  out.obstacles = Image<ObstaclePoint>(s.width, s.height);
-  out.floor = out.below = Image<GroundStrip>(s.width, s.height);
   out.counts = {};
-  out.obstacles_in_row.assign(size(s.height), 0);
-  out.floor_in_row = out.below_in_row = out.obstacles_in_row;
-  for (int v = 0; v < s.height; ++v) {
-    PrunedRow row{row_span(out.obstacles.view(), v), row_span(out.floor.view(), v), row_span(out.below.view(), v)};
-    note(k.reproject_prune_row(model, v, row_span(disparity, v), row, out.counts, row_span(out.classes.view(), v)),
-         out);
-    out.obstacles_in_row[size(v)] = row.obstacle_count;
-    out.floor_in_row[size(v)] = row.floor_count;
-    out.below_in_row[size(v)] = row.below_count;
-  }
-}
-
-void run_bin(const CompareSetup& s, const StageOutputs& in, const KernelTable& k, StageOutputs& out) {
   out.binned = OwnedGrid(grid_geometry(s.config.grid));
   const NavGrid grid = out.binned.view();
   note(clear_grid(grid), out);
-  for (int v = 0; v < s.height; ++v) {
-    const std::size_t row = size(v);
-    note(k.bin_obstacles(row_span(in.obstacles.view(), v).first(in.obstacles_in_row[row]), grid), out);
-    note(k.bin_ground(row_span(in.floor.view(), v).first(in.floor_in_row[row]), grid, grid.floor_count), out);
-    note(k.bin_ground(row_span(in.below.view(), v).first(in.below_in_row[row]), grid, grid.below_count), out);
-  }
+  in_bands(s, out, [&](Rows rows) {
+    return k.project_rows(model, disparity, rows, grid, out.counts, out.classes.view(), scratch.bytes());
+  });
 }
 
 void run_score(const CompareSetup& s, const StageOutputs& in, const KernelTable& k, StageOutputs& out) {
@@ -179,9 +162,8 @@ void run_score(const CompareSetup& s, const StageOutputs& in, const KernelTable&
   note(k.score(s.thresholds, s.min_height_mm, out.scored.view()), out);
 }
 
-void run_plan(const CompareSetup& s, const StageOutputs& in, const KernelTable& /*k*/, StageOutputs& out) {
-  PlanState state;
-  note(s.planner.plan(in.scored.type.view(), {}, state, out.plan), out);
+void run_polar_histogram(const CompareSetup& s, const StageOutputs& in, const KernelTable& k, StageOutputs& out) {
+  note(k.polar_histogram(in.scored.type.view(), s.polar_table, out.polar_histogram, {}), out);
 }
 
 void run_frame(const CompareSetup& s, const StageOutputs& /*in*/, const KernelTable& k, StageOutputs& out) {
@@ -190,7 +172,7 @@ void run_frame(const CompareSetup& s, const StageOutputs& /*in*/, const KernelTa
 }
 
 #define LAKSHYA_SAME(member) [](const KernelTable& a, const KernelTable& b) { return a.member == b.member; }
-constexpr std::array<CompareStage, 15> kStageList = {{
+constexpr std::array<CompareStage, 14> kStageList = {{
     {"rectify", false, LAKSHYA_SAME(rectify), run_rectify, rectify_planes},
     {"census", true, LAKSHYA_SAME(census), run_census, census_planes},
     {"texture", true, LAKSHYA_SAME(texture), run_texture, texture_planes},
@@ -200,16 +182,10 @@ constexpr std::array<CompareStage, 15> kStageList = {{
     {"census_block", true, LAKSHYA_SAME(census_block), run_census_block, census_block_planes},
     {"sad_block", true, LAKSHYA_SAME(sad_block), run_sad_block, sad_block_planes},
     {"support", true, LAKSHYA_SAME(support), run_support, support_planes},
-    {"ground", true, LAKSHYA_SAME(ground_residuals_row), run_ground, ground_planes},
-    {"prune", true, LAKSHYA_SAME(reproject_prune_row), run_prune, prune_planes},
-    {"bin", true,
-     [](const KernelTable& a, const KernelTable& b) {
-       return a.bin_obstacles == b.bin_obstacles && a.bin_ground == b.bin_ground;
-     },
-     run_bin, bin_planes},
+    {"ground", true, LAKSHYA_SAME(ground_residuals), run_ground, ground_planes},
+    {"project", true, LAKSHYA_SAME(project_rows), run_project, project_planes},
     {"score", true, LAKSHYA_SAME(score), run_score, score_planes},
-    // The planner has one implementation; it is compared as part of the frame.
-    {"plan", true, [](const KernelTable&, const KernelTable&) { return true; }, run_plan, plan_planes},
+    {"polar_histogram", true, LAKSHYA_SAME(polar_histogram), run_polar_histogram, polar_histogram_planes},
     {"frame", false, [](const KernelTable&, const KernelTable&) { return false; }, run_frame, frame_planes},
 }};
 #undef LAKSHYA_SAME

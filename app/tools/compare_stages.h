@@ -31,7 +31,7 @@ inline constexpr std::array<const char*, 3> kComparedMatchers = {"sgm", "census"
 struct StageOutputs {
   Status status = Status::ok;  // the worst that a kernel of the stage returned
   Image<std::uint8_t> left, right;
-  Image<std::uint32_t> left_codes, right_codes;
+  Image<CensusCode> left_codes, right_codes;
   Image<std::uint8_t> textured;
   Image<std::uint8_t> left_log, right_log;
   Image<std::uint8_t> left_sobel, right_sobel;
@@ -39,13 +39,10 @@ struct StageOutputs {
   GroundHistogram residuals{};
   std::array<std::int32_t, 1> ground_offset16{};
   Image<PixelClass> classes;
-  Image<ObstaclePoint> obstacles;  // row by row of the image, the first `..._in_row` of each
-  Image<GroundStrip> floor, below;
-  std::vector<std::size_t> obstacles_in_row, floor_in_row, below_in_row;
   PixelCounts counts;
   OwnedGrid binned;
   OwnedGrid scored;
-  Plan plan;
+  PolarHistogram polar_histogram{};
   std::unique_ptr<Pipeline> pipeline;  // whose views `frame` holds
   FrameResult frame;
 };

@@ -6,8 +6,8 @@
 
 #include "app/core/input_error.h"
 #include "app/tools/accuracy_command.h"
-#include "app/tools/compare_command.h"
 #include "app/tools/bench_command.h"
+#include "app/tools/compare_command.h"
 #include "app/tools/config_command.h"
 #include "app/tools/eval_command.h"
 #include "app/tools/plan_command.h"

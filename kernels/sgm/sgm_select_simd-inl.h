@@ -71,7 +71,7 @@ inline void right_winners(const SearchRange& range, int width, std::size_t pitch
       hn::Store(place, d, places);
       for (int k = 0; k < lanes; k += words) {
         const auto steps = hn::PromoteTo(d32, hn::LoadU(d8, places + k));
-        const auto found = hn::Add(steps, hn::Iota(d32, y - (width - 1) + begin + k - 1));
+        const auto found = hn::Add(hn::Add(steps, hn::Iota(d32, 0)), hn::Set(d32, y - (width - 1) + begin + k - 1));
         std::int32_t* winners = rows.right_winner.data() + y + k;
         const auto kept = hn::LoadU(d32, winners);
         hn::StoreU(hn::IfThenElse(hn::Eq(steps, hn::Zero(d32)), kept, found), d32, winners);
@@ -134,7 +134,7 @@ class Decide {
     const hn::Rebind<std::int16_t, Ints> d16;
     const auto column = static_cast<std::size_t>(u);
     const auto zero = hn::Zero(d);
-    const auto pixel = hn::Iota(d, u);
+    const auto pixel = hn::Add(hn::Iota(d, 0), hn::Set(d, u));
     const auto best = hn::LoadU(d, rows_.winner.data() + column);
     const auto sum = hn::LoadU(d, rows_.winner_sum.data() + column);
     const auto before = hn::LoadU(d, rows_.sum_before.data() + column);

@@ -165,12 +165,12 @@ TEST(CompareTables, AWrongKernelIsNamedWithItsPixelAndValues) {
   EXPECT_TRUE(compare_line(results).starts_with("DIFFERS: census on ")) << compare_line(results);
 }
 
-// The last point of every row that has one is a millimetre too high.
-Status wrong_prune(const PruneModel& model, int v, std::span<const std::int16_t> disparity, PrunedRow& out,
-                   PixelCounts& counts, std::span<PixelClass> classes) {
-  const Status status = reproject_prune_row_ref(model, v, disparity, out, counts, classes);
-  if (out.obstacle_count > 0) ++out.obstacles[out.obstacle_count - 1].height_mm;
-  return status;
+// One obstacle point too many in the nearest cell.
+Status wrong_project(const PruneModel& model, ImageView<const std::int16_t> disparity, Rows rows,
+                     const NavGrid& grid, PixelCounts& counts, ImageView<PixelClass> classes,
+                     std::span<std::byte> scratch) {
+  if (rows.begin == 0) ++grid.count.at(0, 0);
+  return project_rows_ref(model, disparity, rows, grid, counts, classes, scratch);
 }
 
 Status refusing_score(std::span<const CellThresholds>, std::int32_t, const NavGrid&) {
@@ -179,12 +179,12 @@ Status refusing_score(std::span<const CellThresholds>, std::int32_t, const NavGr
 
 TEST(CompareTables, PointsAndRefusalsCount) {
   KernelTable wrong = kReferenceKernels;
-  wrong.reproject_prune_row = wrong_prune;
+  wrong.project_rows = wrong_project;
   wrong.score = refusing_score;
-  const Results points = compare(wall(), wrong, {"best", "prune"});
+  const Results points = compare(wall(), wrong, {"best", "project"});
   ASSERT_EQ(points.size(), 1U);
   ASSERT_TRUE(points[0].numbers.first);
-  EXPECT_EQ(points[0].numbers.first->what, "obstacle height mm");
+  EXPECT_EQ(points[0].numbers.first->what, "points");
   EXPECT_EQ(points[0].numbers.first->value, points[0].numbers.first->reference + 1);
   const Results refused = compare(wall(), wrong, {"best", "score"});
   ASSERT_TRUE(refused.at(0).numbers.first);
