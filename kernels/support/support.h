@@ -27,5 +27,7 @@ struct SupportParams {
 // size_mismatch, bad_argument.
 Status support_ref(ImageView<const std::int16_t> disparity, const SupportParams& params, Rows rows,
                    ImageView<std::int16_t> out);
+Status support_simd(ImageView<const std::int16_t> disparity, const SupportParams& params, Rows rows,
+                    ImageView<std::int16_t> out);
 
 }  // namespace lakshya
