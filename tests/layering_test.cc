@@ -43,6 +43,7 @@ TEST(LayeringRules, WrongArrows) {
        {"\"kernels/a/b_simd-inl.h\"", "\"app/core/image.h\"", "\"a.h\"", "\"kernels/../hal/c.h\"",
         "<kernels/../hal/c.h>"}},
       {"kernels/a/a_simd.cc", {"<immintrin.h>", "\"hal/c.h\""}},
+      {"kernels/a/a-inl.h", {"\"hwy/highway.h\""}},
       {"hal/c.cc", {"\"kernels/census/census.h\"", "\"app/core/image.h\"", "<yaml-cpp/yaml.h>"}},
       {"app/nav/n.cc", {"\"app/core/image.h\"", "\"hal/clock.h\"", "<yaml-cpp/yaml.h>", "<opencv2/core.hpp>"}},
       {"app/core/p.cc", {"\"app/tools/sheet.h\"", "<opencv2/core.hpp>", "\"opencv2/core.hpp\""}},
