@@ -37,7 +37,7 @@ struct BlockParams {
   SelectParams select;
   int radius_u = 4;   // px, 0..kMaxBlockRadius; the window is 2 radius_u + 1 wide
   int radius_v = 4;   // px, 0..kMaxBlockRadius
-  int edge_cap = 31;  // sad_block_ref only: the cap of the edges, 1..kMaxEdgeCap
+  int edge_cap = 31;  // sad only: the cap of the edges, 1..kMaxEdgeCap
 };
 
 // Bytes of scratch for one band; independent of the height. radius_v 0..kMaxBlockRadius.
@@ -56,5 +56,14 @@ Status census_block_ref(ImageView<const CensusCode> left, ImageView<const Census
 Status sad_block_ref(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
                      ImageView<const std::uint8_t> textured, Rows descriptor_rows, const BlockParams& params,
                      Rows rows, std::span<std::byte> scratch, ImageView<std::int16_t> disparity);
+
+Status census_block_simd(ImageView<const std::uint32_t> left, ImageView<const std::uint32_t> right,
+                         ImageView<const std::uint8_t> textured, Rows descriptor_rows, const BlockParams& params,
+                         Rows rows, std::span<std::byte> scratch, ImageView<std::int16_t> disparity);
+Status sad_block_simd(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
+                      ImageView<const std::uint8_t> textured, Rows descriptor_rows, const BlockParams& params,
+                      Rows rows, std::span<std::byte> scratch, ImageView<std::int16_t> disparity);
+// Its part of block_scratch_bytes.
+std::size_t block_simd_scratch_bytes(int width, int disparities, int radius_v);
 
 }  // namespace lakshya

@@ -1,17 +1,13 @@
 #include <algorithm>
 
 #include "kernels/base/scratch.h"
-#include "kernels/base/units.h"
 #include "kernels/block/block.h"
-#include "kernels/census/census.h"
-#include "kernels/edge/edge.h"
+#include "kernels/block/block_checks.h"
 #include "kernels/hamming/hamming.h"
 #include "kernels/sad/sad.h"
 
 namespace lakshya {
 namespace {
-
-constexpr int kLargestSum = 65535;
 
 // What one band keeps; the ring has window_rows(radius_v) rows of costs, image row v in slot v mod window_rows.
 struct BlockRows {
@@ -21,10 +17,6 @@ struct BlockRows {
   std::span<std::uint16_t> sums;     // S of the current row
   std::span<std::int16_t> select;
 };
-
-constexpr int window_rows(int radius_v) {
-  return 2 * radius_v + 1;
-}
 
 BlockRows lay_out(int width, int disparities, int radius_v, ScratchLayout& scratch) {
   const auto candidates = static_cast<std::size_t>(disparities);
@@ -97,68 +89,41 @@ class Window {
   BlockRows rows_;
 };
 
-struct CensusCost {
-  using Descriptor = CensusCode;
-  static bool params_ok(const BlockParams&) { return true; }
-  static int largest(const BlockParams&) { return kCensusBits; }
+struct CensusCost : CensusTraits {
   static Status row(std::span<const Descriptor> left, std::span<const Descriptor> right, const BlockParams& p,
                     std::span<std::uint8_t> cost) {
     return hamming_row_ref(left, right, p.range, cost);
   }
 };
 
-struct SadCost {
-  using Descriptor = std::uint8_t;
-  static bool params_ok(const BlockParams& p) { return 1 <= p.edge_cap && p.edge_cap <= kMaxEdgeCap; }
-  static int largest(const BlockParams& p) { return 2 * p.edge_cap; }
+struct SadCost : SadTraits {
   static Status row(std::span<const Descriptor> left, std::span<const Descriptor> right, const BlockParams& p,
                     std::span<std::uint8_t> cost) {
-    return sad_row_ref(left, right, p.range, sad_outside_cost(p.edge_cap), cost);
+    return sad_row_ref(left, right, p.range, outside(p), cost);
   }
 };
 
 template <class Cost>
-bool params_ok(const BlockParams& p, int width) {
-  const auto radius_ok = [](int radius) { return 0 <= radius && radius <= kMaxBlockRadius; };
-  return search_range_ok(p.range, width) && radius_ok(p.radius_u) && radius_ok(p.radius_v) && Cost::params_ok(p) &&
-         (2 * p.radius_u + 1) * window_rows(p.radius_v) * Cost::largest(p) <= kLargestSum;
-}
+Status block_match(const BlockCall<Cost>& c) {
+  Status status = check(c);
+  if (status != Status::ok) return status;
+  const Rows matched = blank_rows_without_descriptors(c);
+  if (matched.begin >= matched.end) return Status::ok;
 
-template <class Cost, class Image = ImageView<const typename Cost::Descriptor>>
-Status block_match(const Image& left, const Image& right, const ImageView<const std::uint8_t>& textured,
-                   Rows descriptor_rows, const BlockParams& params, Rows rows, std::span<std::byte> scratch,
-                   const ImageView<std::int16_t>& disparity) {
-  if (!same_size(left, right) || !same_size(left, textured) || !same_size(left, disparity)) {
-    return Status::size_mismatch;
-  }
-  if (!params_ok<Cost>(params, left.width) || !rows_inside(rows, left) || !rows_inside(descriptor_rows, left)) {
-    return Status::bad_argument;
-  }
-  if (scratch.size() < block_scratch_bytes(left.width, params.range.disparities, params.radius_v)) {
-    return Status::scratch_too_small;
-  }
-
-  const int first = std::max(descriptor_rows.begin, rows.begin);
-  const int last = std::min(descriptor_rows.end, rows.end);
-  for (int v = rows.begin; v < rows.end; ++v) {
-    if (v < first || v >= last) std::fill_n(disparity.row(v), disparity.width, std::int16_t{kNotSearched});
-  }
-  if (first >= last) return Status::ok;
-
-  ScratchLayout layout(scratch.data());
-  Window window(params, lay_out(left.width, params.range.disparities, params.radius_v, layout));
-  const int top = std::max(descriptor_rows.begin, first - params.radius_v);
-  for (int below = top; below < last + params.radius_v; ++below) {
+  const BlockParams& params = c.params;
+  ScratchLayout layout(c.scratch.data());
+  Window window(params, lay_out(c.left.width, params.range.disparities, params.radius_v, layout));
+  const int top = std::max(c.descriptor_rows.begin, matched.begin - params.radius_v);
+  for (int below = top; below < matched.end + params.radius_v; ++below) {
     const std::span<std::uint8_t> cost = window.make_room(below);
-    Status status = Status::ok;
-    if (below < descriptor_rows.end)
-      status = Cost::row(row_span(left, below), row_span(right, below), params, cost);
+    if (below < c.descriptor_rows.end)
+      status = Cost::row(row_span(c.left, below), row_span(c.right, below), params, cost);
     if (status != Status::ok) return status;
     window.enter(cost);
     const int v = below - params.radius_v;
-    if (v < first) continue;
-    status = select_row_ref(window.add_up_row(), row_span(textured, v), params.range, params.select,
-                            window.select_scratch(), row_span(disparity, v));
+    if (v < matched.begin) continue;
+    status = select_row_ref(window.add_up_row(), row_span(c.textured, v), params.range, params.select,
+                            window.select_scratch(), row_span(c.disparity, v));
     if (status != Status::ok) return status;
   }
   return Status::ok;
@@ -169,19 +134,19 @@ Status block_match(const Image& left, const Image& right, const ImageView<const 
 std::size_t block_scratch_bytes(int width, int disparities, int radius_v) {
   ScratchLayout layout;
   lay_out(width, disparities, radius_v, layout);
-  return layout.used();
+  return std::max(layout.used(), block_simd_scratch_bytes(width, disparities, radius_v));
 }
 
 Status census_block_ref(ImageView<const CensusCode> left, ImageView<const CensusCode> right,
                         ImageView<const std::uint8_t> textured, Rows descriptor_rows, const BlockParams& params,
                         Rows rows, std::span<std::byte> scratch, ImageView<std::int16_t> disparity) {
-  return block_match<CensusCost>(left, right, textured, descriptor_rows, params, rows, scratch, disparity);
+  return block_match<CensusCost>({left, right, textured, descriptor_rows, params, rows, scratch, disparity});
 }
 
 Status sad_block_ref(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
                      ImageView<const std::uint8_t> textured, Rows descriptor_rows, const BlockParams& params,
                      Rows rows, std::span<std::byte> scratch, ImageView<std::int16_t> disparity) {
-  return block_match<SadCost>(left, right, textured, descriptor_rows, params, rows, scratch, disparity);
+  return block_match<SadCost>({left, right, textured, descriptor_rows, params, rows, scratch, disparity});
 }
 
 }  // namespace lakshya

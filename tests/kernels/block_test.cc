@@ -8,6 +8,7 @@
 #include "kernels/census/census.h"
 #include "kernels/edge/edge.h"
 #include "tests/support/block_pair.h"
+#include "tests/support/each_isa.h"
 #include "tests/support/test_image.h"
 #include "tests/support/test_scratch.h"
 
@@ -39,7 +40,7 @@ BlockParams params_for(int width, int disparities = 16) {
 
 template <class Matcher>
 class Block : public ::testing::Test {};
-using Matchers = ::testing::Types<test::CensusBlock, test::SadBlock>;
+using Matchers = ::testing::Types<test::CensusBlock, test::SadBlock, test::CensusBlockSimd, test::SadBlockSimd>;
 TYPED_TEST_SUITE(Block, Matchers);
 
 // Three equal rows; at u = 18 with radius 1 the costs of columns 17, 18, 19 per row are
@@ -190,7 +191,7 @@ TYPED_TEST(Block, ScratchIsOfTheStatedSizeAndNotOverrun) {
   constexpr int kWidth = 17;
   for (const int radius_v : {0, 4}) {
     const std::size_t bytes = block_scratch_bytes(kWidth, 16, radius_v);
-    EXPECT_LT(bytes, static_cast<std::size_t>(17 * 16 * (2 * radius_v + 5) + 512));
+    EXPECT_LT(bytes, static_cast<std::size_t>(17 * 16 * (2 * radius_v + 5) + 17 * 1024));
     const BlockPair<TypeParam> pair(kWidth, 100, 8);
     BlockParams p = params_for(kWidth);
     p.radius_v = radius_v;
@@ -234,6 +235,41 @@ TYPED_TEST(Block, RefusesWrongArguments) {
             Status::scratch_too_small);
   PaddedImage<std::int16_t> wrong(19, 10);
   EXPECT_EQ(pair.match(good, {0, 10}, {0, 10}, scratch.span(), wrong.view()), Status::size_mismatch);
+}
+
+template <class Matcher>
+class BlockSimd : public ::testing::Test {};
+using SimdMatchers = ::testing::Types<test::CensusBlockSimd, test::SadBlockSimd>;
+TYPED_TEST_SUITE(BlockSimd, SimdMatchers);
+
+// Widths around every vector, all kinds of candidates, more of them than columns, both signs of the first.
+TYPED_TEST(BlockSimd, EqualsTheReference) {
+  std::mt19937 random(12);
+  const auto pick = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+  test::for_each_isa([&](const char* isa) {
+    for (const int disparities : {16, 32, 48, 64, 96, 128, 192, 512}) {
+      for (const int width : {0, 1, 15, 16, 17, 40, 65, 97, 160}) {
+        constexpr int kHeight = 13;
+        BlockParams p = params_for(width, disparities);
+        p.radius_u = pick(0, 7);
+        p.radius_v = pick(0, 5);
+        p.range.first = pick(-40, 20);
+        p.range.valid_begin = std::min(pick(0, 5), width);
+        p.range.valid_end = std::max(p.range.valid_begin, width - pick(0, 5));
+        p.edge_cap = pick(1, 127);
+        p.select.offset16 = std::max(0, -16 * p.range.first) + pick(0, 20);
+        p.select.uniqueness_percent = pick(0, 3) == 0 ? 0 : pick(0, 30);
+        p.select.left_right_max = pick(-1, 3);
+        const int largest_window = (2 * p.radius_u + 1) * (2 * p.radius_v + 1) * 2 * p.edge_cap;
+        if (largest_window > 65535) p.edge_cap = 20;
+        const Rows described{pick(0, 3), kHeight - pick(0, 3)};
+        const BlockPair<TypeParam> pair(width, kHeight, static_cast<unsigned>(pick(0, 1000)), p.edge_cap);
+        ASSERT_TRUE(same_disparities(pair.matched(p, described), pair.reference(p, described)))
+            << isa << " " << width << " columns, " << disparities << " candidates from " << p.range.first
+            << ", radii " << p.radius_u << "," << p.radius_v << ", uniqueness " << p.select.uniqueness_percent;
+      }
+    }
+  });
 }
 
 TEST(SadBlock, RefusesCapsAndWindowsWhoseSumsWouldNotFit) {

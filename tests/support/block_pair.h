@@ -26,6 +26,7 @@ namespace lakshya::test {
 struct CensusBlock {
   using Descriptor = CensusCode;
   static constexpr auto kMatch = census_block_ref;
+  static constexpr auto kReference = census_block_ref;
   static constexpr auto kDescribe = census_ref;
   static constexpr int kRadiusU = kCensusRadiusU;
   static constexpr int kRadiusV = kCensusRadiusV;
@@ -39,6 +40,7 @@ struct CensusBlock {
 struct SadBlock {
   using Descriptor = std::uint8_t;
   static constexpr auto kMatch = sad_block_ref;
+  static constexpr auto kReference = sad_block_ref;
   static constexpr auto kDescribe = [](ImageView<const std::uint8_t> image, Rows rows, ImageView<Descriptor> out) {
     return edge_log_ref(image, BlockParams{}.edge_cap, rows, out);
   };
@@ -51,6 +53,14 @@ struct SadBlock {
   }
   static int cost(Descriptor a, Descriptor b) { return std::abs(a - b); }
   static int outside(int edge_cap) { return sad_outside_cost(edge_cap); }
+};
+
+struct CensusBlockSimd : CensusBlock {
+  static constexpr auto kMatch = census_block_simd;
+};
+
+struct SadBlockSimd : SadBlock {
+  static constexpr auto kMatch = sad_block_simd;
 };
 
 // Random descriptors; one texture flag in eight is off.
@@ -89,6 +99,16 @@ class BlockPair {
     PaddedImage<std::int16_t> out(width_, height_);
     EXPECT_EQ(match(p, descriptor_rows, {0, height_}, scratch.span(), out.view()), Status::ok);
     EXPECT_TRUE(out.canaries_alive());
+    return out;
+  }
+
+  // By the reference implementation.
+  PaddedImage<std::int16_t> reference(const BlockParams& p, Rows descriptor_rows) const {
+    const Scratch scratch(block_scratch_bytes(width_, p.range.disparities, p.radius_v));
+    PaddedImage<std::int16_t> out(width_, height_);
+    EXPECT_EQ(Matcher::kReference(left_.view(), right_.view(), textured_.view(), descriptor_rows, p, {0, height_},
+                                  scratch.span(), out.view()),
+              Status::ok);
     return out;
   }
 
