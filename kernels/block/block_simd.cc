@@ -38,10 +38,10 @@ struct BlockSimdRows {
     r.zero = scratch.take<std::int16_t>(candidates);
     r.before = scratch.take<std::int16_t>(candidates);
     r.select.sums = scratch.take<std::int16_t>(static_cast<std::size_t>(sum_slots(disparities)) *
-                                               static_cast<std::size_t>(sum_stride(disparities)));
+                                               static_cast<std::size_t>(sum_stride(disparities, kMaxSumLanes)));
     r.select.best = scratch.take<std::int16_t>(columns);
     r.select.fraction = scratch.take<std::int16_t>(columns);
-    r.select.right = scratch.take<std::int16_t>(columns + kMaxSumLanes);
+    r.select.right = scratch.take<std::int16_t>(columns + kMaxSumLanes + 2);
     return r;
   }
 };
@@ -55,7 +55,8 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Delta: the costs, of what enters minus what leaves.
-template <class D, class Delta, class Traits>
+// kDisparities: their number, if it is a usual one, for loops of a constant length; or 0.
+template <class D, class Delta, class Traits, int kDisparities>
 class Band {
  public:
   Band(const BlockCall<Traits>& call, const BlockSimdRows& rows, Delta& delta)
@@ -88,15 +89,17 @@ class Band {
  private:
   using V = hn::Vec<D>;
 
+  int disparities() const { return kDisparities != 0 ? kDisparities : range_.disparities; }
+
   std::int16_t* column(int x) const {
-    return rows_.columns.data() + static_cast<std::ptrdiff_t>(x) * range_.disparities;
+    return rows_.columns.data() + static_cast<std::ptrdiff_t>(x) * disparities();
   }
 
   template <bool kBorder>
   HWY_INLINE void advance_column(int x) {
     const D d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    const int disparities = range_.disparities;
+    const int disparities = this->disparities();
     std::int16_t* HWY_RESTRICT sums = column(x);
     const typename Delta::template Column<kBorder> delta(delta_, x);
     for (int i = 0; i < disparities; i += 2 * lanes) {
@@ -122,7 +125,7 @@ class Band {
   HWY_INLINE V slide(const std::int16_t* from, const std::int16_t* leaves, std::int16_t* to) {
     const D d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    const int disparities = range_.disparities;
+    const int disparities = this->disparities();
     V least = hn::Set(d, kSumPadding);
     for (int i = 0; i < disparities; i += lanes) {
       const V sum = hn::Sub(hn::LoadU(d, from + i), hn::LoadU(d, leaves + i));
@@ -137,7 +140,7 @@ class Band {
   HWY_INLINE V slide_and_advance(const std::int16_t* from, int x, const std::int16_t* leaves, std::int16_t* to) {
     const D d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    const int disparities = range_.disparities;
+    const int disparities = this->disparities();
     std::int16_t* enters = column(x);
     const typename Delta::template Column<kBorder> delta(delta_, x);
     V least_low = hn::Set(d, kSumPadding);
@@ -189,6 +192,25 @@ class Band {
     return slots;
   }
 
+  // Of the pixels of one step.
+  using Slots = std::array<std::int16_t*, kPixelsPerStep>;
+  using Least = std::array<std::int16_t, kPixelsPerStep>;
+
+  template <bool kInside>
+  void select_step(int begin, int end, const Slots& slots, const Least& least, const std::uint8_t* textured,
+                   std::int16_t* disparity) const {
+    const D d;
+    for (int u = begin; u < end; ++u) {
+      const auto k = static_cast<std::size_t>(u - begin);
+      if (textured[u] != 0) {
+        disparity[u] = select_.template select_left<kInside>(d, disparities(), u, slots[k], least[k]);
+      } else {
+        disparity[u] = kLowTexture;
+        rows_.select.best[static_cast<std::size_t>(u)] = -1;
+      }
+    }
+  }
+
   void match_row(int v) {
     const std::span<std::int16_t> disparity = row_span(c_.disparity, v);
     std::fill(disparity.begin(), disparity.end(), std::int16_t{kNotSearched});
@@ -213,14 +235,10 @@ class Band {
         least[static_cast<std::size_t>(x - u)] = static_cast<std::int16_t>(least_of(slide_to(x, from, to)));
         from = to;
       }
-      for (int x = u; x < stop; ++x) {
-        const auto k = static_cast<std::size_t>(x - u);
-        if (textured[x] != 0) {
-          disparity[static_cast<std::size_t>(x)] = select_.select_left(d, x, slots[k], least[k]);
-        } else {
-          disparity[static_cast<std::size_t>(x)] = kLowTexture;
-          rows_.select.best[static_cast<std::size_t>(x)] = -1;
-        }
+      if (select_.inside(u) && select_.inside(stop - 1)) {
+        select_step<true>(u, stop, slots, least, textured, disparity.data());
+      } else {
+        select_step<false>(u, stop, slots, least, textured, disparity.data());
       }
       if (c_.params.select.left_right_max < 0) continue;
       for (; right < range_.valid_end; right += lanes) {
@@ -242,8 +260,11 @@ class Band {
 template <class D, template <class> class Delta, class Traits, class CostRows>
 void match_rows(const BlockCall<Traits>& call, const Rows& matched, const BlockSimdRows& rows,
                 const CostRows& cost_rows) {
+  BlockSimdRows kept = rows;
+  kept.select.lanes = static_cast<int>(hn::Lanes(D()));
   Delta<D> delta(call, cost_rows);
-  Band<D, Delta<D>, Traits>(call, rows, delta).run(matched);
+  if (call.params.range.disparities == 64) return Band<D, Delta<D>, Traits, 64>(call, kept, delta).run(matched);
+  Band<D, Delta<D>, Traits, 0>(call, kept, delta).run(matched);
 }
 
 // With the longest vectors that divide the candidates.

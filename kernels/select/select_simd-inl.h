@@ -8,9 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 
 #include "hwy/highway.h"
-#include "kernels/base/integer.h"
 #include "kernels/base/search_range.h"
 #include "kernels/base/units.h"
 #include "kernels/select/select.h"
@@ -29,10 +29,11 @@ namespace lakshya {
 inline constexpr int kMaxSumLanes = 32;  // int16 in 64 bytes: no vector is made longer
 inline constexpr int kSumBias = 32768;
 inline constexpr std::int16_t kSumPadding = 32767;
+inline constexpr std::int16_t kNoRightWinner = -2 * kMaxDisparities;
 inline constexpr int kPixelsPerStep = 32;  // sums first, then winners: as many as stay in the first cache
 
-constexpr int sum_stride(int disparities) {
-  return disparities + 2 * kMaxSumLanes;
+constexpr int sum_stride(int disparities, int lanes) {
+  return disparities + 2 * lanes;
 }
 
 // Right pixels are searched a vector at a time, once the last left pixel that can match one of them is there.
@@ -42,14 +43,16 @@ constexpr int sum_slots(int disparities) {
 
 // Of one row.
 struct SelectRows {
+  int lanes = kMaxSumLanes;
   std::span<std::int16_t> sums;      // sum_slots x sum_stride
   std::span<std::int16_t> best;      // winner of a left pixel, or -1 when its disparity is decided
   std::span<std::int16_t> fraction;  // its sub-pixel part
   std::span<std::int16_t> right;     // winner of a right pixel
 
+  std::int16_t& right_of(int u) const { return right[static_cast<std::size_t>(u + 1)]; }
   // Candidate 0 of slot `index`; pixel u has slot (u - valid_begin) mod sum_slots.
   std::int16_t* slot(int disparities, int index) const {
-    return sums.data() + static_cast<std::ptrdiff_t>(index) * sum_stride(disparities) + kMaxSumLanes;
+    return sums.data() + static_cast<std::ptrdiff_t>(index) * sum_stride(disparities, lanes) + lanes;
   }
 };
 
@@ -67,15 +70,20 @@ struct Candidates {
   int last;
 };
 
+template <class D>
+using MaskBits = std::conditional_t<hn::MaxLanes(D()) <= 8, std::uint8_t,
+                                    std::conditional_t<hn::MaxLanes(D()) <= 16, std::uint16_t, std::uint32_t>>;
+
 // Bit k: candidate k of `count` (at most 64, a constant after inlining) is above the limit.
 template <class D>
 HWY_INLINE std::uint64_t bits_above(D d, const std::int16_t* sums, int count, hn::Vec<D> limit) {
   const int lanes = static_cast<int>(hn::Lanes(d));
   std::uint64_t bits = 0;
   for (int i = 0; i < count; i += lanes) {
-    std::uint64_t above = 0;
+    // Just as wide as the vector: a wider one would be written in part and read as a whole, which stalls.
+    MaskBits<D> above = 0;
     hn::StoreMaskBits(d, hn::Gt(hn::LoadU(d, sums + i), limit), reinterpret_cast<std::uint8_t*>(&above));
-    bits |= above << i;
+    bits |= std::uint64_t{above} << i;
   }
   return bits;
 }
@@ -107,33 +115,38 @@ class Selection {
 
   // Winner, uniqueness and sub-pixel of left pixel u, whose least (biased) sum is `least`; returns the code if it has no
   // disparity.
-  template <class D>
-  HWY_INLINE std::int16_t select_left(D d, int u, const std::int16_t* sums, int least) const {
-    std::int16_t& best = rows_.best[static_cast<std::size_t>(u)];
-    best = -1;
+  // kInside: every candidate of the pixel is in the right image.
+  template <bool kInside, class D>
+  HWY_INLINE std::int16_t select_left(D d, int disparities, int u, const std::int16_t* sums, int least) const {
     const int sum = least + kSumBias;
-    int winner = -1;
+    int winner = 0;
+    bool unique = true;
     const int right_column = u - range_.first;  // of candidate 0
-    const bool all_inside =
-        right_column < range_.valid_end && right_column - (range_.disparities - 1) >= range_.valid_begin;
-    if (!all_inside || p_.uniqueness_percent == 0 || sum == 0) {
-      winner = at_most(d, sums, range_.disparities, static_cast<std::int16_t>(least)).first;
-      if (right_column - winner >= range_.valid_end || right_column - winner < range_.valid_begin)
+    if (!kInside || p_.uniqueness_percent == 0 || sum == 0) {
+      winner = at_most(d, sums, disparities, static_cast<std::int16_t>(least)).first;
+      if (right_column - winner >= range_.valid_end || right_column - winner < range_.valid_begin) {
+        rows_.best[static_cast<std::size_t>(u)] = -1;
         return kNotSearched;
+      }
     }
     if (p_.uniqueness_percent != 0 && sum != 0) {
-      const Candidates near = at_most(d, sums, range_.disparities, limit(sum));
-      // The winner is among them; with its two neighbours it spans at most three.
-      if (near.last - near.first > 2) return kNotUnique;
+      const Candidates near = at_most(d, sums, disparities, limit(sum));
+      // The winner is among them; with its two neighbours it spans at most three. No branch before the end: what the
+      // images hold would be guessed wrong too often.
       const int a = sums[near.first];
       const int b = sums[near.first + 1];  // the padding, when there is none
       const int c = sums[near.first + 2];
-      winner = near.first + (b < a ? (c < b ? 2 : 1) : (c < a ? 2 : 0));
-      if (near.last - winner > 1 || winner - near.first > 1) return kNotUnique;
+      winner = near.first + (c < std::min(a, b) ? 2 : (b < a ? 1 : 0));
+      unique = std::max(near.last - winner, winner - near.first) <= 1;
     }
-    best = static_cast<std::int16_t>(winner);
+    rows_.best[static_cast<std::size_t>(u)] = static_cast<std::int16_t>(unique ? winner : -1);
     rows_.fraction[static_cast<std::size_t>(u)] = static_cast<std::int16_t>(sub_pixel(sums, winner));
-    return 0;
+    return unique ? std::int16_t{0} : std::int16_t{kNotUnique};
+  }
+
+  bool inside(int u) const {
+    const int right = u - range_.first;  // of candidate 0
+    return right < range_.valid_end && right - (range_.disparities - 1) >= range_.valid_begin;
   }
 
   // Winners of the right pixels [begin, begin + Lanes(d)).
@@ -149,7 +162,7 @@ class Selection {
     auto winner = hn::Zero(d);
     auto candidate = hn::Iota(d, static_cast<std::int16_t>(first - candidate0));
     const auto one = hn::Set(d, std::int16_t{1});
-    const int stride = sum_stride(n);
+    const int stride = sum_stride(n, lanes);
     const int slots = sum_slots(n);
     for (int u = first; u <= last;) {
       // As far as the ring goes on.
@@ -165,21 +178,16 @@ class Selection {
       }
       u += run;
     }
-    hn::StoreU(hn::Reverse(d, winner), d, rows_.right.data() + begin);
+    hn::StoreU(hn::Reverse(d, winner), d, &rows_.right_of(begin));
   }
 
   // When the whole row has been through the two above.
   void finish(std::span<std::int16_t> disparity) const {
-    for (int u = range_.valid_begin; u < range_.valid_end; ++u) {
-      const auto at = static_cast<std::size_t>(u);
-      const int best = rows_.best[at];
-      if (best < 0) continue;
-      const int fraction = rows_.fraction[at];
-      disparity[at] =
-          p_.left_right_max >= 0 && !left_right_agree(u, best, fraction)
-              ? std::int16_t{kLeftRightFailed}
-              : static_cast<std::int16_t>(kDisparityScale * (range_.first + best) + fraction + p_.offset16);
-    }
+    if (p_.left_right_max < 0) return finish_row<false>(disparity.data());
+    // The right pixels just outside agree with nobody.
+    rows_.right_of(range_.valid_begin - 1) = kNoRightWinner;
+    rows_.right_of(range_.valid_end) = kNoRightWinner;
+    finish_row<true>(disparity.data());
   }
 
  private:
@@ -193,24 +201,38 @@ class Selection {
     return static_cast<std::int16_t>(std::min(quotient, 65534) - kSumBias);
   }
 
+  // As in the header; of a winner the numerator is at most the denominator, and adding 16 to the quotient makes it an
+  // unsigned division. (The padding is there for the ends of the range.)
   int sub_pixel(const std::int16_t* sums, int best) const {
-    if (best == 0 || best == range_.disparities - 1) return 0;
     const std::int32_t before = sums[best - 1];
     const std::int32_t after = sums[best + 1];
-    const std::int32_t numerator = before - after;
     const std::int32_t denominator = std::max(before + after - 2 * sums[best], 1);
-    return floor_divide(kDisparityScale * numerator + denominator, 2 * denominator);
+    const std::int32_t dividend = kDisparityScale * (before - after) + denominator + 32 * denominator;
+    const auto shifted = static_cast<std::uint32_t>(dividend) / static_cast<std::uint32_t>(2 * denominator);
+    const bool at_the_end = best == 0 || best == range_.disparities - 1;
+    return at_the_end ? 0 : static_cast<int>(shifted) - 16;
   }
 
-  bool left_right_agree(int u, int best, int fraction) const {
-    const int down = best + (fraction < 0 ? -1 : 0);
-    const int up = best + (fraction > 0 ? 1 : 0);
-    for (int i = down; i <= up; ++i) {
-      const int right = u - range_.first - i;
-      if (right < range_.valid_begin || right >= range_.valid_end) continue;
-      if (std::abs(best - rows_.right[static_cast<std::size_t>(right)]) <= p_.left_right_max) return true;
+  template <bool kLeftRight>
+  void finish_row(std::int16_t* HWY_RESTRICT disparity) const {
+    const std::int16_t* best_of = rows_.best.data();
+    const std::int16_t* fraction_of = rows_.fraction.data();
+    const std::int16_t* right = &rows_.right_of(0);
+    const int first = range_.first;
+    const int offset16 = p_.offset16;
+    const int most = std::min(p_.left_right_max, kMaxDisparities);
+    const int end = range_.valid_end;
+    for (int u = range_.valid_begin; u < end; ++u) {
+      const int best = best_of[u];
+      if (best < 0) continue;
+      const int fraction = fraction_of[u];
+      // The right pixels of the disparity rounded down and up: the winner's, and with a fraction one beside it.
+      const std::int16_t* here = right + (u - first - best);
+      const std::int16_t* beside = here - ((fraction > 0 ? 1 : 0) - (fraction < 0 ? 1 : 0));
+      const bool agree = !kLeftRight || std::min(std::abs(best - *here), std::abs(best - *beside)) <= most;
+      const int d = kDisparityScale * (first + best) + fraction + offset16;
+      disparity[u] = agree ? static_cast<std::int16_t>(d) : std::int16_t{kLeftRightFailed};
     }
-    return false;
   }
 
   SearchRange range_;
