@@ -57,7 +57,7 @@ Status sad_block_ref(ImageView<const std::uint8_t> left, ImageView<const std::ui
                      ImageView<const std::uint8_t> textured, Rows descriptor_rows, const BlockParams& params,
                      Rows rows, std::span<std::byte> scratch, ImageView<std::int16_t> disparity);
 
-Status census_block_simd(ImageView<const std::uint32_t> left, ImageView<const std::uint32_t> right,
+Status census_block_simd(ImageView<const CensusCode> left, ImageView<const CensusCode> right,
                          ImageView<const std::uint8_t> textured, Rows descriptor_rows, const BlockParams& params,
                          Rows rows, std::span<std::byte> scratch, ImageView<std::int16_t> disparity);
 Status sad_block_simd(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,

@@ -20,7 +20,7 @@ constexpr int window_rows(int radius_v) {
 }
 
 struct CensusTraits {
-  using Descriptor = std::uint32_t;
+  using Descriptor = CensusCode;
   static bool params_ok(const BlockParams& /*p*/) { return true; }
   static int largest(const BlockParams& /*p*/) { return kCensusBits; }
   static std::uint8_t outside(const BlockParams& /*p*/) { return kOutsideCost; }

@@ -74,7 +74,7 @@ struct CensusRows {
   static CensusRows lay_out(int width, int disparities, int radius_v, ScratchLayout& scratch) {
     const auto elements = static_cast<std::size_t>(ReversedRow::size_of(width, disparities));
     CensusRows r;
-    r.planes = scratch.take<std::uint8_t>(8 * elements);
+    r.planes = scratch.take<std::uint8_t>(4 * elements);
     r.zero = scratch.take<std::uint8_t>(4 * elements);
     r.inside = scratch.take<std::uint8_t>(elements);
     r.outside = scratch.take<std::uint8_t>(elements);

@@ -332,7 +332,7 @@ std::size_t block_simd_scratch_bytes(int width, int disparities, int radius_v) {
   return std::max(sad.used(), census.used());
 }
 
-Status census_block_simd(ImageView<const std::uint32_t> left, ImageView<const std::uint32_t> right,
+Status census_block_simd(ImageView<const CensusCode> left, ImageView<const CensusCode> right,
                          ImageView<const std::uint8_t> textured, Rows descriptor_rows, const BlockParams& params,
                          Rows rows, std::span<std::byte> scratch, ImageView<std::int16_t> disparity) {
   const BlockCall<CensusTraits> call{left, right, textured, descriptor_rows, params, rows, scratch, disparity};

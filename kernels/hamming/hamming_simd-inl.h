@@ -1,5 +1,5 @@
 // Hamming distances of census codes of one column (kernels/hamming): the row that enters a window minus the row that
-// leaves it, which is kept. The right codes lie as eight planes of four bits, and what four bits differ from the left
+// leaves it, which is kept. The right codes lie as four planes of four bits, and what four bits differ from the left
 // pixel's is looked up in the row of a table that the left bits choose: a look-up and an addition for each plane.
 #include <algorithm>
 #include <array>
@@ -45,6 +45,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 template <class D>
 class HammingDelta {
+  using Bytes = hn::Repartition<std::uint8_t, D>;
+  static constexpr std::size_t kPlanes = 4;
+
  public:
   using V = hn::Vec<D>;
 
@@ -63,7 +66,7 @@ class HammingDelta {
   void set_rows(int enters, int /*leaves*/, int turn) {
     const std::size_t row = rows_.ring.size() / static_cast<std::size_t>(window_rows(call_.params.radius_v));
     ring_ = rows_.ring.data() + static_cast<std::size_t>(turn % window_rows(call_.params.radius_v)) * row;
-    left_ = reinterpret_cast<const std::uint32_t*>(rows_.zero.data());
+    left_ = reinterpret_cast<const CensusCode*>(rows_.zero.data());
     outside_ = rows_.zero.data();
     planes_.fill(rows_.zero.data());
     if (enters < 0) return;
@@ -87,7 +90,7 @@ class HammingDelta {
           costs_(h.ring_ + static_cast<std::ptrdiff_t>(x) * h.place_.disparities),
           inside_(h.rows_.inside.data() + at_),
           outside_(h.outside_ + at_) {
-      const std::uint32_t code = h.left_[x];
+      const unsigned code = h.left_[x];
       for (std::size_t p = 0; p < kPlanes; ++p) {
         planes_[p] += at_;
         tables_[p] = kNibbleDistances.of[(code >> (4 * p)) & 15U];
@@ -117,28 +120,24 @@ class HammingDelta {
     }
 
     std::ptrdiff_t at_;
-    std::array<const std::uint8_t*, 8> planes_;
-    std::array<const std::uint8_t*, 8> tables_;
+    std::array<const std::uint8_t*, kPlanes> planes_;
+    std::array<const std::uint8_t*, kPlanes> tables_;
     std::uint8_t* costs_;
     const std::uint8_t* inside_;
     const std::uint8_t* outside_;
   };
 
  private:
-  using Bytes = hn::Repartition<std::uint8_t, D>;
-  static constexpr std::size_t kPlanes = 8;
-
   // The valid right codes, reversed.
-  void split(const std::uint32_t* right, std::uint8_t* planes, std::ptrdiff_t stride) const {
+  void split(const CensusCode* right, std::uint8_t* planes, std::ptrdiff_t stride) const {
     const hn::FixedTag<std::uint8_t, 16> d;
     const int last = place_.column_of(0);
     const auto reverse = hn::Sub(hn::Set(d, std::uint8_t{15}), hn::Iota(d, std::uint8_t{0}));
     const auto low_bits = hn::Set(d, std::uint8_t{15});
     int j = place_.inside_begin;
     for (; j + 16 <= place_.inside_end; j += 16) {
-      hn::Vec<decltype(d)> bytes[4];
-      hn::LoadInterleaved4(d, reinterpret_cast<const std::uint8_t*>(right + (last - j - 15)), bytes[0], bytes[1],
-                           bytes[2], bytes[3]);
+      hn::Vec<decltype(d)> bytes[2];
+      hn::LoadInterleaved2(d, reinterpret_cast<const std::uint8_t*>(right + (last - j - 15)), bytes[0], bytes[1]);
       std::uint8_t* to = planes + j;
       for (const auto& byte : bytes) {
         const auto reversed = hn::TableLookupBytes(byte, reverse);
@@ -158,7 +157,7 @@ class HammingDelta {
   CensusRows rows_;
   ReversedRow place_;
   std::array<const std::uint8_t*, kPlanes> planes_{};
-  const std::uint32_t* left_ = nullptr;
+  const CensusCode* left_ = nullptr;
   const std::uint8_t* outside_ = nullptr;
   std::uint8_t* ring_ = nullptr;
 };
