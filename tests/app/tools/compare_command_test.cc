@@ -125,7 +125,7 @@ TEST(CompareTables, ARealPairAgrees) {
 }
 
 // One wrong bit in one code.
-Status wrong_census(ImageView<const std::uint8_t> image, Rows rows, ImageView<std::uint32_t> codes) {
+Status wrong_census(ImageView<const std::uint8_t> image, Rows rows, ImageView<CensusCode> codes) {
   const Status status = census_ref(image, rows, codes);
   if (rows.begin <= 40 && 40 < rows.end) codes.at(21, 40) ^= 8U;
   return status;
@@ -136,7 +136,7 @@ TEST(CompareTables, AWrongKernelIsNamedWithItsPixelAndValues) {
   wrong.census = wrong_census;
   const test::StereoPair pair = wall();
   const Results results = compare(pair, wrong);
-  Image<std::uint32_t> codes(test::StereoRig::kWidth, test::StereoRig::kHeight);
+  Image<CensusCode> codes(test::StereoRig::kWidth, test::StereoRig::kHeight);
   ASSERT_EQ(census_ref(pair.left.view(), {0, codes.height()}, codes.view()), Status::ok);
   const std::uint32_t right_code = codes.view().at(21, 40);
   EXPECT_FALSE(all_equal(results));
