@@ -117,14 +117,15 @@ Share share_of(const PaperScene& scene, const test::RenderedPair& pair, const Fr
 CellType cell_at(const NavGrid& grid, double forward_m, double left_m);
 
 // How far from a thing's outline an obstacle cell may lie: margin_m (cells), and what an error of disparity_px does to
-// the depth of a surface there, z^2 disparity_px / (f B). The left-right check (1 px, after rounding either way) lets just
-// under 2 px pass, and so much is seen beside silhouettes, where only the left camera sees the background.
+// the depth of a surface there, z^2 disparity_px / (f B). Beside silhouettes, where only the left camera sees the background, no match is right: what
+// the left-right check (1 px, after rounding either way) lets pass there is 2 px off, and up to 3 px on a few pixels,
+// enough for a cell in the doorway experiment.
 struct Clearance {
   double margin_m = 0;
   double disparity_px = 0;
 };
 inline constexpr Clearance kTrueClearance{0.15, 0.1};
-inline constexpr Clearance kMatchedClearance{0.2, 2.0};
+inline constexpr Clearance kMatchedClearance{0.2, 2.5};
 
 // Obstacle cells that are farther than that from every thing, as text; empty when there is none.
 std::string stray_obstacles(const PaperScene& scene, const NavGrid& grid, const Clearance& clearance);
