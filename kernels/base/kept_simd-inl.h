@@ -32,7 +32,7 @@ class Kept {
  private:
   hn::TFromD<D> lanes_[hn::MaxLanes(D())];
 #else
-  HWY_INLINE Kept() : v_(hn::Zero(D())) {}
+  HWY_INLINE Kept() {}
   HWY_INLINE Kept(V v) : v_(v) {}
   HWY_INLINE V get() const {
     return v_;

@@ -10,6 +10,8 @@
 #include <cstdint>
 
 #include "hwy/highway.h"
+#include "kernels/base/kept_simd-inl.h"
+#include "kernels/base/search_range.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lakshya {
@@ -20,6 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Bytes = hn::CappedTag<std::uint8_t, 64>;
 using Words = hn::RepartitionToWide<Bytes>;
 using ByteVec = hn::Vec<Bytes>;
+inline constexpr std::size_t kFewestLanes = 16;
 
 // Every candidate's neighbour with the smaller disparity: `here` moved up by one, the last one of `before` first.
 HWY_INLINE ByteVec moved_up([[maybe_unused]] Bytes d, ByteVec here, ByteVec before) {
@@ -52,6 +55,7 @@ HWY_INLINE ByteVec moved_down([[maybe_unused]] Bytes d, ByteVec here, ByteVec af
 #endif
 }
 
+// The smallest byte, in the form in which it is found; in_every_byte and number make of it what is wanted.
 #if HWY_ARCH_X86
 using Block = hn::Vec<hn::Full128<std::uint8_t>>;
 
@@ -63,37 +67,43 @@ HWY_INLINE Block block_minimum(D, hn::Vec<D> v) {
   const hn::Half<D> half;
   return block_minimum(half, hn::Min(hn::LowerHalf(half, v), hn::UpperHalf(half, v)));
 }
-HWY_INLINE Block spread(hn::Full128<std::uint8_t>, Block v) {
-  return v;
-}
-template <class D>
-HWY_INLINE hn::Vec<D> spread(D d, Block v) {
-  const auto half = spread(hn::Half<D>(), v);
-  return hn::Combine(d, half, half);
-}
-#endif
-
-// The smallest byte, in every byte.
-HWY_INLINE ByteVec least(Bytes d, ByteVec v) {
-#if HWY_ARCH_X86
+// In the first of 16-bit lanes.
+HWY_INLINE __m128i least(Bytes d, ByteVec v) {
   const hn::Full128<std::uint8_t> d128;
   const hn::Full128<std::uint16_t> d16;
   const Block block = block_minimum(d, v);
   // The lower byte of each word becomes the smaller of the two, the upper one 0; then one instruction finds the least.
   const Block pairs = hn::Min(block, hn::BitCast(d128, hn::ShiftRight<8>(hn::BitCast(d16, block))));
-  const Block first{_mm_minpos_epu16(pairs.raw)};
-  return spread(d, hn::TableLookupBytes(first, hn::Zero(d128)));
+  return _mm_minpos_epu16(pairs.raw);
+}
+HWY_INLINE ByteVec in_every_byte(Bytes, __m128i least) {
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+  return ByteVec{_mm512_broadcastb_epi8(least)};
+#elif HWY_TARGET == HWY_AVX2
+  return ByteVec{_mm256_broadcastb_epi8(least)};
 #else
-  const Words d16;
-  const auto words = hn::BitCast(d16, v);
-  const auto pairs = hn::Min(hn::And(words, hn::Set(d16, 0xFF)), hn::ShiftRight<8>(words));
-  return hn::Set(d, static_cast<std::uint8_t>(hn::GetLane(hn::MinOfLanes(d16, pairs))));
+  return ByteVec{_mm_shuffle_epi8(least, _mm_setzero_si128())};
 #endif
 }
-
-HWY_INLINE std::uint8_t first_byte(ByteVec v) {
-  return hn::GetLane(v);
+// Bits 8 to 15 are 0, those above are not.
+HWY_INLINE std::uint8_t number(__m128i least) {
+  return static_cast<std::uint8_t>(_mm_cvtsi128_si32(least));
 }
+#else
+HWY_INLINE std::uint8_t least([[maybe_unused]] Bytes d, ByteVec v) {
+#if HWY_TARGET == HWY_NEON
+  return vminvq_u8(v.raw);
+#else
+  return svminv_u8(svwhilelt_b8(std::uint64_t{0}, static_cast<std::uint64_t>(hn::Lanes(d))), v);
+#endif
+}
+HWY_INLINE ByteVec in_every_byte(Bytes d, std::uint8_t least) {
+  return hn::Set(d, least);
+}
+HWY_INLINE std::uint8_t number(std::uint8_t least) {
+  return least;
+}
+#endif
 
 // One bit per byte of a mask.
 template <class Mask>
@@ -110,29 +120,17 @@ HWY_INLINE std::uint64_t mask_bits(Bytes d, Mask mask) {
   return bits;
 }
 
-// The vectors of one pixel's candidates. As many as kVectors in registers, or in memory where that number or the length
-// of a vector is not known at compile time.
-#if HWY_ARCH_ARM && HWY_TARGET != HWY_NEON
+// The vectors of one pixel's candidates. As many as kVectors, 0: any number.
 template <std::size_t kVectors>
 class PixelVecs {
  public:
-  HWY_INLINE ByteVec get(std::size_t k) const { return hn::Load(Bytes(), data_ + k * hn::Lanes(Bytes())); }
-  HWY_INLINE void set(std::size_t k, ByteVec v) { hn::Store(v, Bytes(), data_ + k * hn::Lanes(Bytes())); }
+  HWY_INLINE PixelVecs() {}
+  HWY_INLINE ByteVec get(std::size_t k) const { return data_[k].get(); }
+  HWY_INLINE void set(std::size_t k, ByteVec v) { data_[k] = Kept<Bytes>(v); }
 
  private:
-  alignas(64) std::uint8_t data_[512 + 64];
+  Kept<Bytes> data_[kVectors > 0 ? kVectors : std::size_t{kMaxDisparities} / kFewestLanes];
 };
-#else
-template <std::size_t kVectors>
-class PixelVecs {
- public:
-  HWY_INLINE ByteVec get(std::size_t k) const { return data_[k]; }
-  HWY_INLINE void set(std::size_t k, ByteVec v) { data_[k] = v; }
-
- private:
-  ByteVec data_[kVectors > 0 ? kVectors : 512 / hn::MaxLanes(Bytes()) + 1];
-};
-#endif
 
 }  // namespace HWY_NAMESPACE
 }  // namespace lakshya

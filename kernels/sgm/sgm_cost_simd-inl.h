@@ -116,53 +116,53 @@ class HammingRow {
   HammingRow(const SgmSimdRows& rows, int width, int disparities, ReversedRange valid)
       : left_(rows.left_planes.data()),
         right_valid_(rows.right_valid.data()),
-        width_(width),
-        disparities_(disparities),
-        valid_(valid) {
+        first_inside_(width - 1 + disparities - valid.end),
+        last_inside_(width - 1 - valid.begin),
+        width_(width) {
     for (std::size_t p = 0; p < kCodePlanes; ++p)
       right_[p] = rows.right_planes[p].data();
   }
 
-  // Whether some candidate's right pixel has no descriptor.
-  HWY_INLINE bool partly_outside(int u) const {
-    const int y = width_ - 1 - u;
-    return y < valid_.begin || y + disparities_ > valid_.end;
-  }
+  // Pixels all of whose candidates have a right pixel with a descriptor: these and those between; maybe none.
+  int first_inside() const { return first_inside_; }
+  int last_inside() const { return last_inside_; }
 
-  // Of pixel u, `vectors` of them.
-  HWY_INLINE void store(int u, std::size_t vectors, std::uint8_t* out) const {
+  // Of pixel u. For a pixel that is not inside, kInside must be false.
+  template <bool kInside, std::size_t kVectors>
+  HWY_INLINE void distances(int u, std::size_t vectors, PixelVecs<kVectors>& out) const {
     const Bytes d;
+    const hn::Repartition<std::uint32_t, Bytes> d32;
     const std::size_t lanes = hn::Lanes(d);
     const std::size_t y = static_cast<std::size_t>(width_ - 1 - u);
+    const std::uint32_t* left = left_ + static_cast<std::size_t>(u) * kCodePlanes;
+    const BitCounts count = count_;
+    const auto left0 = hn::BitCast(d, hn::Set(d32, left[0]));
+    const auto left1 = hn::BitCast(d, hn::Set(d32, left[1]));
+    const auto left2 = hn::BitCast(d, hn::Set(d32, left[kCodePlanes - 2]));
+    const auto left3 = hn::BitCast(d, hn::Set(d32, left[kCodePlanes - 1]));
+    const auto part = [&](ByteVec plane, std::size_t p, std::size_t k)
+                          HWY_ATTR { return count.of(hn::Xor(plane, hn::LoadU(d, right_[p] + y + k * lanes))); };
 #pragma GCC unroll 4
-    for (std::size_t k = 0; k < vectors; ++k)
-      hn::Store(distance(u, y + k * lanes), d, out + k * lanes);
-    if (HWY_LIKELY(!partly_outside(u))) return;
     for (std::size_t k = 0; k < vectors; ++k) {
-      const auto inside = hn::MaskFromVec(hn::LoadU(d, right_valid_ + y + k * lanes));
-      hn::Store(hn::IfThenElse(inside, hn::Load(d, out + k * lanes), hn::Set(d, kOutsideCost)), d, out + k * lanes);
+      auto sum = hn::Add(part(left0, 0, k), part(left1, 1, k));
+      if constexpr (kCodePlanes == 4) {
+        sum = hn::Add(sum, hn::Add(part(left2, kCodePlanes - 2, k), part(left3, kCodePlanes - 1, k)));
+      }
+      if constexpr (!kInside) {
+        const auto valid = hn::LoadU(d, right_valid_ + y + k * lanes);
+        sum = hn::IfThenElse(hn::MaskFromVec(valid), sum, hn::Set(d, kOutsideCost));
+      }
+      out.set(k, sum);
     }
   }
 
  private:
-  HWY_INLINE ByteVec part(int u, std::size_t y, std::size_t p) const {
-    const Bytes d;
-    const hn::Repartition<std::uint32_t, Bytes> d32;
-    const auto left = hn::BitCast(d, hn::Set(d32, left_[static_cast<std::size_t>(u) * kCodePlanes + p]));
-    return count_.of(hn::Xor(left, hn::LoadU(d, right_[p] + y)));
-  }
-  HWY_INLINE ByteVec distance(int u, std::size_t y) const {
-    auto sum = hn::Add(part(u, y, 0), part(u, y, 1));
-    if constexpr (kCodePlanes == 4) sum = hn::Add(sum, hn::Add(part(u, y, 2), part(u, y, 3)));
-    return sum;
-  }
-
   const std::uint32_t* left_;
   const std::uint8_t* right_[kCodePlanes];
   const std::uint8_t* right_valid_;
+  int first_inside_;
+  int last_inside_;
   int width_;
-  int disparities_;
-  ReversedRange valid_;
   BitCounts count_;
 };
 

@@ -13,7 +13,7 @@
 
 #include "kernels/base/units.h"
 #include "kernels/sgm/sgm.h"
-#include "kernels/sgm/sgm_cost_simd-inl.h"
+#include "kernels/sgm/sgm_sums_simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lakshya {
@@ -22,27 +22,20 @@ namespace HWY_NAMESPACE {
 // Where there is no right pixel: far from every candidate.
 inline constexpr std::int32_t kNoRightWinner = -100'000;
 
-// Sums below this limit are too near to a least sum of `s`; more than 255: every sum is.
-inline void unique_limits(int uniqueness_percent, std::uint16_t (&limit)[256]) {
-  const int share = 100 - uniqueness_percent;
-  for (int s = 0; s < 256; ++s)
-    limit[s] = static_cast<std::uint16_t>((100 * s + share - 1) / share);
-}
-
 // The candidate that each right pixel matches best, of the right pixels in `valid`. As many right pixels as a vector has
 // bytes keep their least sum and its place in registers, while the left pixels that can match them pass by: their sums
 // for these right pixels lie side by side.
-inline void right_winners(const SearchRange& range, int width, std::size_t pitch, ReversedRange valid,
+inline void right_winners(const SearchRange& range, int width, const RowShape& shape, ReversedRange valid,
                           const SgmSimdRows& rows) {
   const Bytes d;
   const hn::Repartition<std::int32_t, Bytes> d32;
   const hn::Rebind<std::uint8_t, decltype(d32)> d8;  // as many bytes as words
   const int lanes = static_cast<int>(hn::Lanes(d));
   const int words = static_cast<int>(hn::Lanes(d32));
-  const int span = static_cast<int>(pitch);
+  const int span = static_cast<int>(shape.pitch);
+  const std::size_t pitch = shape.sum_pitch;
   constexpr int kSteps = 255;  // places of a byte, 0 is none
   const auto one = hn::Set(d, 1);
-  const std::uint8_t* outside = rows.outside.data() + kMaxVectorBytes;
   for (int y = valid.begin; y < valid.end; y += lanes) {
     const int first_pixel = std::max(range.valid_begin, width - y - lanes);
     const int last_pixel = std::min(range.valid_end, width - 1 - y + span);
@@ -56,13 +49,13 @@ inline void right_winners(const SearchRange& range, int width, std::size_t pitch
         place = hn::Add(hn::SaturatedSub(head, hn::Iota(d, 0)), one);
       }
       auto step = one;
-      // Candidate of the vector's first right pixel, and its sum; both move by one from pixel to pixel.
-      int i = y - (width - 1) + begin;
-      const std::uint8_t* sums = rows.sums.data() + static_cast<std::ptrdiff_t>(pitch) * (begin + 1) + i;
-      for (int u = begin; u < end; ++u, ++i, sums += pitch + 1) {
-        auto s = hn::LoadU(d, sums);
-        if (i < 0 || i + lanes > span) s = hn::Or(s, hn::LoadU(d, outside + i));
-        const auto less = hn::Min(lowest, s);
+      // The sum of the vector's first right pixel; from one left pixel to the next it is that of the next candidate. What
+      // lies before the candidates and after them is 255.
+      const std::uint8_t* sums =
+          rows.sums.data() + static_cast<std::ptrdiff_t>(pitch) * (begin + 1) + (y - (width - 1) + begin);
+#pragma GCC unroll 4
+      for (int u = begin; u < end; ++u, sums += pitch + 1) {
+        const auto less = hn::Min(lowest, hn::LoadU(d, sums));
         place = hn::Max(place, hn::IfThenZeroElse(hn::Eq(less, lowest), step));
         lowest = less;
         step = hn::Add(step, one);
@@ -88,7 +81,12 @@ class Decide {
   using Int = hn::Vec<Ints>;
 
   Decide(const SgmParams& params, int width, const SgmSimdRows& rows)
-      : p_(params), width_(width), rows_(rows), first_(params.range.first), last_(params.range.disparities - 1) {}
+      : p_(params),
+        width_(width),
+        rows_(rows),
+        first_(params.range.first),
+        last_(params.range.disparities - 1),
+        unique_no_more_(unique_no_more(params.select.uniqueness_percent)) {}
 
   void row(const std::uint8_t* textured, std::int16_t* disparity) const {
     const int lanes = static_cast<int>(hn::Lanes(Ints()));
@@ -119,6 +117,22 @@ class Decide {
     return hn::IfThenElseZero(inner, hn::ConvertTo(d, hn::Floor(quotient)));
   }
 
+  template <int kByte>
+  static HWY_INLINE Int byte(hn::Vec<hn::RebindToUnsigned<Ints>> words) {
+    const hn::RebindToUnsigned<Ints> d;
+    return hn::BitCast(Ints(), hn::And(hn::ShiftRight<8 * kByte>(words), hn::Set(d, 255U)));
+  }
+
+  HWY_INLINE hn::Mask<Ints> has_rivals(int u) const {
+    // Half of a word of 64 bits each, and each other half after it.
+    const Ints d;
+    const auto* bits = reinterpret_cast<const std::int32_t*>(rows_.rivals.data() + u);
+    auto lower = hn::Undefined(d);
+    auto upper = lower;
+    hn::LoadInterleaved2(d, bits, lower, upper);
+    return hn::Ne(hn::Or(lower, upper), hn::Zero(d));
+  }
+
   // Whether the right pixel of `candidate` has its own winner near to `best`.
   HWY_INLINE hn::Mask<Ints> right_agrees(Int pixel, Int candidate, Int best) const {
     const Ints d;
@@ -136,9 +150,10 @@ class Decide {
     const auto zero = hn::Zero(d);
     const auto pixel = hn::Add(hn::Iota(d, 0), hn::Set(d, u));
     const auto best = hn::LoadU(d, rows_.winner.data() + column);
-    const auto sum = hn::LoadU(d, rows_.winner_sum.data() + column);
-    const auto before = hn::LoadU(d, rows_.sum_before.data() + column);
-    const auto after = hn::LoadU(d, rows_.sum_after.data() + column);
+    const auto sums = hn::LoadU(hn::RebindToUnsigned<Ints>(), rows_.winner_sums.data() + column);
+    const auto before = byte<0>(sums);
+    const auto sum = byte<1>(sums);
+    const auto after = byte<2>(sums);
     const auto part = fraction(best, sum, before, after);
     const auto whole = hn::Add(best, hn::Set(d, first_));
     auto result = hn::Add(hn::Add(hn::ShiftLeft<kDisparityBits>(whole), part), hn::Set(d, p_.select.offset16));
@@ -149,8 +164,8 @@ class Decide {
           hn::Or(right_agrees(pixel, best, best), right_agrees(pixel, hn::Add(best, towards), best));
       result = hn::IfThenElse(agrees, result, hn::Set(d, kLeftRightFailed));
     }
-    const auto rivals = hn::LoadU(d, rows_.rivals.data() + column);
-    result = hn::IfThenElse(hn::Gt(rivals, zero), hn::Set(d, kNotUnique), result);
+    result = hn::IfThenElse(hn::Or(has_rivals(u), hn::Gt(sum, hn::Set(d, unique_no_more_ - 1))),
+                            hn::Set(d, kNotUnique), result);
     const auto u_right = hn::Sub(pixel, whole);
     const auto inside = hn::And(hn::Gt(u_right, hn::Set(d, p_.range.valid_begin - 1)),
                                 hn::Lt(u_right, hn::Set(d, p_.range.valid_end)));
@@ -165,6 +180,7 @@ class Decide {
   const SgmSimdRows& rows_;
   std::int32_t first_;
   std::int32_t last_;
+  std::int32_t unique_no_more_;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -15,6 +15,7 @@
 #include "kernels/sgm/sgm_paths_simd-inl.h"
 #include "kernels/sgm/sgm_select_simd-inl.h"
 #include "kernels/sgm/sgm_simd_rows.h"
+#include "kernels/sgm/sgm_sums_simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lakshya {
@@ -28,7 +29,8 @@ class SgmBand {
       : in_(input),
         p_(params),
         rows_(rows),
-        shape_{params.range.valid_begin, params.range.valid_end, pitch, pitch / hn::Lanes(Bytes())},
+        shape_{params.range.valid_begin, params.range.valid_end, pitch, pitch + hn::Lanes(Bytes()),
+               pitch / hn::Lanes(Bytes())},
         width_(input.left.width),
         valid_(reversed_range(params.range, input.left.width, static_cast<int>(pitch))),
         hamming_(rows_, width_, params.range.disparities, valid_) {
@@ -38,8 +40,6 @@ class SgmBand {
     const auto disparities = static_cast<std::size_t>(params.range.disparities);
     std::fill(rows_.beyond.begin(), rows_.beyond.end(), 255);
     std::fill_n(rows_.beyond.begin(), disparities, 0);
-    std::fill(rows_.outside.begin(), rows_.outside.end(), 255);
-    std::fill_n(rows_.outside.begin() + kMaxVectorBytes, disparities, 0);
     unique_limits(params.select.uniqueness_percent, limits_);
   }
 
@@ -52,6 +52,7 @@ class SgmBand {
       costs(v);
       sums(v >= in_.rows.begin);
       if (v >= in_.rows.begin) select(v, disparity.row(v));
+      std::rotate(rows_.hamming, rows_.hamming + 1, rows_.hamming + 3);
     }
   }
 
@@ -72,9 +73,10 @@ class SgmBand {
       clear(rows_.top_penalty[path]);
     }
     clear(rows_.side_penalty);
-    clear(rows_.sums);
-    for (const auto& values : {rows_.winner, rows_.winner_sum, rows_.sum_before, rows_.sum_after, rows_.rivals})
-      clear(values);
+    clear(rows_.winner);
+    clear(rows_.winner_sums);
+    clear(rows_.rivals);
+    std::fill(rows_.sums.begin(), rows_.sums.end(), 255);
   }
 
   void load_codes(int v) const {
@@ -102,15 +104,10 @@ class SgmBand {
   }
 
   void costs(int v) {
-    const std::uint8_t* above = rows_.hamming[0].data();
-    const std::uint8_t* here = rows_.hamming[1].data();
-    if (v + 1 == in_.descriptor_rows.end) {  // the last row stands in for the one below
-      costs_and_leftward_path<kVectors, false>(hamming_, shape_, rows_, p_, above, here, rows_.hamming[1].data());
-    } else {
-      load_codes(v + 1);
-      costs_and_leftward_path<kVectors, true>(hamming_, shape_, rows_, p_, above, here, rows_.hamming[2].data());
-    }
-    std::rotate(rows_.hamming, rows_.hamming + 1, rows_.hamming + 3);
+    const bool last = v + 1 == in_.descriptor_rows.end;  // stands in for the one below
+    if (!last) load_codes(v + 1);
+    const ThreeRows three{rows_.hamming[0].data(), rows_.hamming[1].data(), rows_.hamming[last ? 1 : 2].data()};
+    costs_and_leftward_path<kVectors>(hamming_, shape_, rows_, three, last, p_.p1);
   }
 
   void sums(bool wanted) {
@@ -126,7 +123,7 @@ class SgmBand {
   void select(int v, std::int16_t* disparity) const {
     std::fill(disparity, disparity + p_.range.valid_begin, std::int16_t{kNotSearched});
     std::fill(disparity + p_.range.valid_end, disparity + width_, std::int16_t{kNotSearched});
-    if (p_.select.left_right_max >= 0) right_winners(p_.range, width_, shape_.pitch, valid_, rows_);
+    if (p_.select.left_right_max >= 0) right_winners(p_.range, width_, shape_, valid_, rows_);
     Decide(p_, width_, rows_).row(in_.textured.row(v), disparity);
   }
 
@@ -137,7 +134,7 @@ class SgmBand {
   int width_;
   ReversedRange valid_;
   HammingRow hamming_;
-  std::uint16_t limits_[256];
+  std::uint8_t limits_[256];
 };
 
 void sgm_band(const SgmInput& input, const SgmParams& params, const SgmSimdRows& rows, Rows span,

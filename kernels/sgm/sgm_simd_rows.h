@@ -1,9 +1,14 @@
 // The rows that sgm_simd keeps of one band, laid out in the caller's scratch.
 //
 // Candidates lie side by side, `pitch` bytes per pixel: the disparities, and up to the next whole vector the value 255,
-// which no minimum takes; a row has a pixel of margin on both sides. The right image's codes lie in reverse, so that the
-// candidates of pixel u are the bytes from y = width - 1 - u on (of right pixel width - 1 - first - y), one load per
-// vector.
+// which no minimum takes; a row has a pixel of margin on both sides. Behind every pixel of the sums lies one vector more
+// of 255, so that a vector that starts up to a vector before a pixel's sums or ends after them meets nothing else. The
+// right image's codes lie in reverse, so that the candidates of pixel u are the bytes from y = width - 1 - u on (of
+// right pixel width - 1 - first - y), one load per vector.
+//
+// All rows of a band together should fit the cache, so a row is kept no longer than it is needed: the sum of three rows
+// of distances and then C take the place of the distances that are no longer wanted, and S that of the path from the
+// right.
 #pragma once
 
 #include <cstddef>
@@ -24,24 +29,21 @@ struct SgmSimdRows {
   std::span<std::uint8_t> right_planes[kMaxCodePlanes];  // reversed
   std::span<CensusCode> right_codes;                     // reversed
   std::span<std::uint8_t> right_valid;                   // 255 where that right pixel has a descriptor, reversed
-  std::span<std::uint8_t> hamming[3];                    // of the row above, this one and the one below
-  std::span<std::uint8_t> cost;                          // C of the row
-  std::span<std::uint8_t> sideways;                   // L of the path from the right, then of the one from the left
-  std::span<std::uint8_t> above[kMaxTopPaths];        // L of the row above
-  std::span<std::uint8_t> current[kMaxTopPaths];      // L of this row
+  // Of the row above, this one and the one below; the first then holds C, that of pixel u at the place of u + 1.
+  std::span<std::uint8_t> hamming[3];
+  std::span<std::uint8_t> sums;                   // L of the path from the right, then S of the row
+  std::span<std::uint8_t> above[kMaxTopPaths];    // L of the row above
+  std::span<std::uint8_t> current[kMaxTopPaths];  // L of this row; path 0, straight down, overwrites the row above
   std::span<std::uint8_t> above_least[kMaxTopPaths];  // their least per pixel
   std::span<std::uint8_t> current_least[kMaxTopPaths];
-  std::span<std::uint8_t> sums;                       // S of the row
   std::span<std::uint8_t> beyond;                     // 0 for a disparity, 255 beyond the last one
-  std::span<std::uint8_t> outside;                    // 255 before the candidates and after them, 0 for them
   std::span<std::uint8_t> side_penalty;               // P2 between pixels u - 1 and u
   std::span<std::uint8_t> top_penalty[kMaxTopPaths];  // P2 between pixel u and the path's pixel above
-  // Of each left pixel: the winner, its S, those of its neighbours, and how many others are nearly as good.
+  // Of each left pixel: the winner; S before it, its own and S after it, from the lowest byte up; a bit for each other
+  // candidate that is nearly as good.
   std::span<std::int32_t> winner;
-  std::span<std::int32_t> winner_sum;
-  std::span<std::int32_t> sum_before;
-  std::span<std::int32_t> sum_after;
-  std::span<std::int32_t> rivals;
+  std::span<std::uint32_t> winner_sums;
+  std::span<std::uint64_t> rivals;
   std::span<std::int32_t> right_winner;  // candidate that a right pixel matches best, reversed
 };
 
@@ -60,24 +62,19 @@ inline SgmSimdRows lay_out_sgm_simd(int width, int disparities, ScratchLayout& s
   r.right_valid = scratch.take<std::uint8_t>(reversed);
   for (auto& distances : r.hamming)
     distances = scratch.take<std::uint8_t>(row);
-  r.cost = scratch.take<std::uint8_t>(row);
-  r.sideways = scratch.take<std::uint8_t>(row);
+  r.sums = scratch.take<std::uint8_t>((columns + 2) * (pitch + kMaxVectorBytes) + kMargin);
   for (int path = 0; path < kMaxTopPaths; ++path) {
     r.above[path] = scratch.take<std::uint8_t>(row);
-    r.current[path] = scratch.take<std::uint8_t>(row);
+    r.current[path] = path == 0 ? r.above[path] : scratch.take<std::uint8_t>(row);
     r.above_least[path] = scratch.take<std::uint8_t>(columns + 2);
-    r.current_least[path] = scratch.take<std::uint8_t>(columns + 2);
+    r.current_least[path] = path == 0 ? r.above_least[path] : scratch.take<std::uint8_t>(columns + 2);
     r.top_penalty[path] = scratch.take<std::uint8_t>(columns);
   }
-  r.sums = scratch.take<std::uint8_t>(row);
   r.beyond = scratch.take<std::uint8_t>(pitch);
-  r.outside = scratch.take<std::uint8_t>(pitch + kMargin);
   r.side_penalty = scratch.take<std::uint8_t>(columns + 1);
   r.winner = scratch.take<std::int32_t>(columns + kMargin);
-  r.winner_sum = scratch.take<std::int32_t>(columns + kMargin);
-  r.sum_before = scratch.take<std::int32_t>(columns + kMargin);
-  r.sum_after = scratch.take<std::int32_t>(columns + kMargin);
-  r.rivals = scratch.take<std::int32_t>(columns + kMargin);
+  r.winner_sums = scratch.take<std::uint32_t>(columns + kMargin);
+  r.rivals = scratch.take<std::uint64_t>(columns + kMargin);
   r.right_winner = scratch.take<std::int32_t>(reversed + 2);
   return r;
 }
