@@ -97,11 +97,11 @@ class SidePath {
 struct RowShape {
   int begin = 0;  // columns with descriptors
   int end = 0;
-  std::size_t pitch = 0;      // bytes per pixel
-  std::size_t sum_pitch = 0;  // of the sums
+  std::size_t pitch = 0;   // bytes per pixel
+  std::size_t spaced = 0;  // of a row with a vector of 255 behind every pixel
   std::size_t vectors = 0;
   std::size_t at(int u) const { return static_cast<std::size_t>(u + 1) * pitch; }
-  std::size_t sums_at(int u) const { return static_cast<std::size_t>(u + 1) * sum_pitch; }
+  std::size_t spaced_at(int u) const { return static_cast<std::size_t>(u + 1) * spaced; }
 };
 
 // Hamming distances of every pixel of a row.
@@ -183,7 +183,7 @@ void costs_and_path(const HammingRow& row_hamming, const RowShape& row_shape, co
       hn::Store(cost.get(k), d, r);
     }
     path.step(vectors, p1, penalties[u + 1], cost);
-    std::uint8_t* out = paths + shape.sums_at(u);
+    std::uint8_t* out = paths + shape.spaced_at(u);
 #pragma GCC unroll 4
     for (std::size_t k = 0; k < vectors; ++k)
       hn::Store(path.get(k), d, out + k * lanes);

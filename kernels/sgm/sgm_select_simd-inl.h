@@ -20,7 +20,7 @@ namespace lakshya {
 namespace HWY_NAMESPACE {
 
 // Where there is no right pixel: far from every candidate.
-inline constexpr std::int32_t kNoRightWinner = -100'000;
+inline constexpr std::int16_t kNoRightWinner = -10'000;
 
 // The candidate that each right pixel matches best, of the right pixels in `valid`. As many right pixels as a vector has
 // bytes keep their least sum and its place in registers, while the left pixels that can match them pass by: their sums
@@ -28,12 +28,12 @@ inline constexpr std::int32_t kNoRightWinner = -100'000;
 inline void right_winners(const SearchRange& range, int width, const RowShape& shape, ReversedRange valid,
                           const SgmSimdRows& rows) {
   const Bytes d;
-  const hn::Repartition<std::int32_t, Bytes> d32;
-  const hn::Rebind<std::uint8_t, decltype(d32)> d8;  // as many bytes as words
+  const hn::Repartition<std::int16_t, Bytes> d16;
+  const hn::Rebind<std::uint8_t, decltype(d16)> d8;  // as many bytes as words
   const int lanes = static_cast<int>(hn::Lanes(d));
-  const int words = static_cast<int>(hn::Lanes(d32));
+  const int words = static_cast<int>(hn::Lanes(d16));
   const int span = static_cast<int>(shape.pitch);
-  const std::size_t pitch = shape.sum_pitch;
+  const std::size_t pitch = shape.spaced;
   constexpr int kSteps = 255;  // places of a byte, 0 is none
   const auto one = hn::Set(d, 1);
   for (int y = valid.begin; y < valid.end; y += lanes) {
@@ -63,11 +63,13 @@ inline void right_winners(const SearchRange& range, int width, const RowShape& s
       alignas(kMaxVectorBytes) std::uint8_t places[kMaxVectorBytes];
       hn::Store(place, d, places);
       for (int k = 0; k < lanes; k += words) {
-        const auto steps = hn::PromoteTo(d32, hn::LoadU(d8, places + k));
-        const auto found = hn::Add(hn::Add(steps, hn::Iota(d32, 0)), hn::Set(d32, y - (width - 1) + begin + k - 1));
-        std::int32_t* winners = rows.right_winner.data() + y + k;
-        const auto kept = hn::LoadU(d32, winners);
-        hn::StoreU(hn::IfThenElse(hn::Eq(steps, hn::Zero(d32)), kept, found), d32, winners);
+        const auto steps = hn::PromoteTo(d16, hn::LoadU(d8, places + k));
+        const int before = y - (width - 1) + begin + k - 1;
+        const auto found =
+            hn::Add(hn::Add(steps, hn::Iota(d16, 0)), hn::Set(d16, static_cast<std::int16_t>(before)));
+        std::int16_t* winners = rows.right_winner.data() + y + k;
+        const auto kept = hn::LoadU(d16, winners);
+        hn::StoreU(hn::IfThenElse(hn::Eq(steps, hn::Zero(d16)), kept, found), d16, winners);
       }
     }
   }
@@ -133,13 +135,21 @@ class Decide {
     return hn::Ne(hn::Or(lower, upper), hn::Zero(d));
   }
 
-  // Whether the right pixel of `candidate` has its own winner near to `best`.
-  HWY_INLINE hn::Mask<Ints> right_agrees(Int pixel, Int candidate, Int best) const {
+  // Whether the right pixel of `best`, or that of its neighbour on the fraction's side, has its own winner near to it.
+  HWY_INLINE hn::Mask<Ints> right_agrees(Int pixel, Int best, Int fraction) const {
     const Ints d;
-    const auto y = hn::Max(hn::Add(hn::Sub(hn::Set(d, width_ - 1), pixel), candidate), hn::Zero(d));
-    const auto theirs = hn::GatherIndex(d, rows_.right_winner.data(), y);
-    return hn::Lt(hn::Abs(hn::Sub(best, theirs)),
-                  hn::Set(d, std::min(p_.select.left_right_max, kMaxDisparities) + 1));
+    const auto zero = hn::Zero(d);
+    const auto y = hn::Add(hn::Sub(hn::Set(d, width_ - 1), pixel), best);
+    const auto first = hn::Sub(y, hn::IfThenElseZero(hn::Lt(fraction, zero), hn::Set(d, 1)));
+    // One load for the two: half a word each. The last pixels of a row's last vector do not exist.
+    const auto offset = hn::Max(hn::ShiftLeft<1>(first), zero);
+    const auto both = hn::GatherOffset(d, reinterpret_cast<const std::int32_t*>(rows_.right_winner.data()), offset);
+    const auto limit = hn::Set(d, std::min(p_.select.left_right_max, kMaxDisparities) + 1);
+    const auto lower = hn::ShiftRight<16>(hn::ShiftLeft<16>(both));
+    const auto upper = hn::ShiftRight<16>(both);
+    const auto lower_agrees = hn::Lt(hn::Abs(hn::Sub(best, lower)), limit);
+    const auto upper_agrees = hn::Lt(hn::Abs(hn::Sub(best, upper)), limit);
+    return hn::Or(lower_agrees, hn::And(upper_agrees, hn::Ne(fraction, zero)));
   }
 
   HWY_INLINE void pixels(int u, const std::uint8_t* textured, std::int16_t* disparity) const {
@@ -158,10 +168,7 @@ class Decide {
     const auto whole = hn::Add(best, hn::Set(d, first_));
     auto result = hn::Add(hn::Add(hn::ShiftLeft<kDisparityBits>(whole), part), hn::Set(d, p_.select.offset16));
     if (p_.select.left_right_max >= 0) {
-      const auto towards = hn::Sub(hn::IfThenElseZero(hn::Gt(part, zero), hn::Set(d, 1)),
-                                   hn::IfThenElseZero(hn::Lt(part, zero), hn::Set(d, 1)));
-      const auto agrees =
-          hn::Or(right_agrees(pixel, best, best), right_agrees(pixel, hn::Add(best, towards), best));
+      const auto agrees = right_agrees(pixel, best, part);
       result = hn::IfThenElse(agrees, result, hn::Set(d, kLeftRightFailed));
     }
     result = hn::IfThenElse(hn::Or(has_rivals(u), hn::Gt(sum, hn::Set(d, unique_no_more_ - 1))),

@@ -66,10 +66,8 @@ class SgmBand {
     for (const auto& plane : rows_.right_planes)
       clear(plane);
     for (int path = 0; path < (p_.paths == 5 ? kMaxTopPaths : 1); ++path) {
-      clear(rows_.above[path]);
-      clear(rows_.current[path]);
-      clear(rows_.above_least[path]);
-      clear(rows_.current_least[path]);
+      start_paths(rows_.above[path]);
+      start_paths(rows_.current[path]);
       clear(rows_.top_penalty[path]);
     }
     clear(rows_.side_penalty);
@@ -77,6 +75,12 @@ class SgmBand {
     clear(rows_.winner_sums);
     clear(rows_.rivals);
     std::fill(rows_.sums.begin(), rows_.sums.end(), 255);
+  }
+
+  void start_paths(std::span<std::uint8_t> row) const {
+    std::fill(row.begin(), row.end(), 255);
+    for (int u = -1; u <= width_; ++u)
+      std::fill_n(row.begin() + static_cast<std::ptrdiff_t>(shape_.spaced_at(u)), p_.range.disparities, 0);
   }
 
   void load_codes(int v) const {
@@ -117,7 +121,6 @@ class SgmBand {
       sums_and_winners<kVectors, false>(shape_, rows_, p_, limits_, wanted);
     }
     std::swap_ranges(rows_.above, rows_.above + kMaxTopPaths, rows_.current);
-    std::swap_ranges(rows_.above_least, rows_.above_least + kMaxTopPaths, rows_.current_least);
   }
 
   void select(int v, std::int16_t* disparity) const {

@@ -1,9 +1,9 @@
 // The rows that sgm_simd keeps of one band, laid out in the caller's scratch.
 //
 // Candidates lie side by side, `pitch` bytes per pixel: the disparities, and up to the next whole vector the value 255,
-// which no minimum takes; a row has a pixel of margin on both sides. Behind every pixel of the sums lies one vector more
-// of 255, so that a vector that starts up to a vector before a pixel's sums or ends after them meets nothing else. The
-// right image's codes lie in reverse, so that the candidates of pixel u are the bytes from y = width - 1 - u on (of
+// which no minimum takes; a row has a pixel of margin on both sides. In the rows of sums and of paths from above, a
+// vector of 255 lies behind every pixel, so that a vector that starts before a pixel's candidates or ends after them
+// meets nothing else there. The right image's codes lie in reverse, so that the candidates of pixel u are the bytes from y = width - 1 - u on (of
 // right pixel width - 1 - first - y), one load per vector.
 //
 // All rows of a band together should fit the cache, so a row is kept no longer than it is needed: the sum of three rows
@@ -44,7 +44,7 @@ struct SgmSimdRows {
   std::span<std::int32_t> winner;
   std::span<std::uint32_t> winner_sums;
   std::span<std::uint64_t> rivals;
-  std::span<std::int32_t> right_winner;  // candidate that a right pixel matches best, reversed
+  std::span<std::int16_t> right_winner;  // candidate that a right pixel matches best, reversed
 };
 
 inline SgmSimdRows lay_out_sgm_simd(int width, int disparities, ScratchLayout& scratch) {
@@ -53,6 +53,7 @@ inline SgmSimdRows lay_out_sgm_simd(int width, int disparities, ScratchLayout& s
   const std::size_t pitch =
       (static_cast<std::size_t>(disparities) + kMaxVectorBytes - 1) / kMaxVectorBytes * kMaxVectorBytes;
   const std::size_t row = (columns + 2) * pitch + kMargin;
+  const std::size_t spaced_row = (columns + 2) * (pitch + kMaxVectorBytes) + kMargin;
   const std::size_t reversed = columns + pitch + kMargin;
   SgmSimdRows r;
   r.left_planes = scratch.take<std::uint32_t>(kMaxCodePlanes * columns + kMargin);
@@ -62,12 +63,10 @@ inline SgmSimdRows lay_out_sgm_simd(int width, int disparities, ScratchLayout& s
   r.right_valid = scratch.take<std::uint8_t>(reversed);
   for (auto& distances : r.hamming)
     distances = scratch.take<std::uint8_t>(row);
-  r.sums = scratch.take<std::uint8_t>((columns + 2) * (pitch + kMaxVectorBytes) + kMargin);
+  r.sums = scratch.take<std::uint8_t>(spaced_row);
   for (int path = 0; path < kMaxTopPaths; ++path) {
-    r.above[path] = scratch.take<std::uint8_t>(row);
-    r.current[path] = path == 0 ? r.above[path] : scratch.take<std::uint8_t>(row);
-    r.above_least[path] = scratch.take<std::uint8_t>(columns + 2);
-    r.current_least[path] = path == 0 ? r.above_least[path] : scratch.take<std::uint8_t>(columns + 2);
+    r.above[path] = scratch.take<std::uint8_t>(spaced_row);
+    r.current[path] = path == 0 ? r.above[path] : scratch.take<std::uint8_t>(spaced_row);
     r.top_penalty[path] = scratch.take<std::uint8_t>(columns);
   }
   r.beyond = scratch.take<std::uint8_t>(pitch);
@@ -75,7 +74,7 @@ inline SgmSimdRows lay_out_sgm_simd(int width, int disparities, ScratchLayout& s
   r.winner = scratch.take<std::int32_t>(columns + kMargin);
   r.winner_sums = scratch.take<std::uint32_t>(columns + kMargin);
   r.rivals = scratch.take<std::uint64_t>(columns + kMargin);
-  r.right_winner = scratch.take<std::int32_t>(reversed + 2);
+  r.right_winner = scratch.take<std::int16_t>(reversed + 2);
   return r;
 }
 

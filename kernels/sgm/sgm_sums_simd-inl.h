@@ -63,14 +63,16 @@ class CandidateBits {
       ++w;
     return static_cast<int>(64 * w) + std::countr_zero(bits_[w]);
   }
-  // The bits that are neither of candidate `best` nor next to it, or of all words together.
-  HWY_INLINE std::uint64_t not_near(std::size_t vectors, int best) {
-    if constexpr (in_one_word()) return bits_[0] & kNotNear.bits[best];
+  // The bits that are not set, less those of candidate `best` and next to it; of all words together.
+  HWY_INLINE std::uint64_t missing(std::size_t vectors, int best) {
+    const std::size_t n = vectors * hn::Lanes(Bytes());
+    if (n % 64 != 0) bits_[n / 64] |= ~std::uint64_t{0} << (n % 64);
+    if constexpr (in_one_word()) return ~bits_[0] & kNotNear.bits[best];
     for (int i = std::max(best - 1, 0); i <= best + 1; ++i)
-      bits_[i / 64] &= ~(std::uint64_t{1} << (i % 64));
+      bits_[i / 64] |= std::uint64_t{1} << (i % 64);
     std::uint64_t all = 0;
     for (std::size_t w = 0; w < words(vectors); ++w)
-      all |= bits_[w];
+      all |= ~bits_[w];
     return all;
   }
 
@@ -89,47 +91,38 @@ class CandidateBits {
   std::uint64_t bits_[kMaxDisparities / 64 + 1];  // one more, for the candidate after the last
 };
 
-// The path from above, of one pixel: L of the row above becomes that of this row, and is added to the sums. `above` and
-// `current` may be the same.
+// The path from above, of one pixel: L of this row is added to the sums. What is kept of a row is L less its least, so
+// that where a path starts it is 0. `above` and `current` may be the same.
 template <std::size_t kVectors>
-HWY_INLINE std::uint8_t top_path(std::size_t vectors, const PixelVecs<kVectors>& cost, ByteVec p1, ByteVec jump,
-                                 ByteVec floor, const std::uint8_t* above, std::uint8_t* current,
-                                 PixelVecs<kVectors>& sum) {
+HWY_INLINE void top_path(std::size_t vectors, const PixelVecs<kVectors>& cost, ByteVec p1, ByteVec p2,
+                         const std::uint8_t* above, std::uint8_t* current, PixelVecs<kVectors>& sum) {
   const Bytes d;
   const std::size_t lanes = hn::Lanes(d);
   const auto outside = hn::Set(d, 255);
+  PixelVecs<kVectors> path;
   auto lowest = outside;
-#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-  auto before = outside;
-#else
-  auto below = hn::Or(hn::LoadU(d, above - 1), hn::VecFromMask(d, hn::FirstN(d, 1)));
-#endif
 #pragma GCC unroll 4
   for (std::size_t k = 0; k < vectors; ++k) {
-    const std::size_t i = k * lanes;
-    const auto here = hn::Load(d, above + i);
+    const std::uint8_t* here = above + k * lanes;
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
     // A load of 64 bytes beside the alignment is two.
-    const auto below = moved_up(d, here, before);
-    const auto beyond = moved_down(d, here, k + 1 < vectors ? hn::Load(d, above + i + lanes) : outside);
-    before = here;
-    const auto next = below;
+    const auto stay = hn::Load(d, here);
+    const auto below = moved_up(d, stay, k > 0 ? hn::Load(d, here - lanes) : outside);
+    const auto beyond = moved_down(d, stay, k + 1 < vectors ? hn::Load(d, here + lanes) : outside);
 #else
-    auto beyond = hn::LoadU(d, above + i + 1);
-    if (k + 1 == vectors) beyond = hn::Or(beyond, hn::Not(hn::VecFromMask(d, hn::FirstN(d, lanes - 1))));
-    const auto next = k + 1 < vectors ? hn::LoadU(d, above + i + lanes - 1) : below;
+    const auto stay = hn::Load(d, here);
+    const auto below = hn::LoadU(d, here - 1);
+    const auto beyond = hn::LoadU(d, here + 1);
 #endif
-    const auto top = path_step(cost.get(k), here, below, beyond, p1, jump, floor);
-    hn::Store(top, d, current + i);
-    lowest = hn::Min(lowest, top);
-    sum.set(k, hn::SaturatedAdd(sum.get(k), top));
-#if !(HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL)
-    below = next;
-#else
-    (void)next;
-#endif
+    const auto move = hn::SaturatedAdd(hn::Min(below, beyond), p1);
+    path.set(k, hn::SaturatedAdd(cost.get(k), hn::Min(hn::Min(stay, p2), move)));
+    lowest = hn::Min(lowest, path.get(k));
+    sum.set(k, hn::SaturatedAdd(sum.get(k), path.get(k)));
   }
-  return number(least(d, lowest));
+  const auto floor = in_every_byte(d, least(d, lowest));
+#pragma GCC unroll 4
+  for (std::size_t k = 0; k < vectors; ++k)
+    hn::Store(hn::Sub(path.get(k), floor), d, current + k * lanes);
 }
 
 // The other paths, S, and for a wanted row each pixel's winner with what decides about it.
@@ -153,7 +146,8 @@ void sums_and_winners(const RowShape& row_shape, const SgmSimdRows& r, const Sgm
   PixelVecs<kVectors> sum;
   for (int u = shape.begin; u < shape.end; ++u) {
     const std::size_t at = shape.at(u);
-    std::uint8_t* sums = rows.sums.data() + shape.sums_at(u);
+    const std::size_t spaced_at = shape.spaced_at(u);
+    std::uint8_t* sums = rows.sums.data() + spaced_at;
     PixelVecs<kVectors> cost;
 #pragma GCC unroll 4
     for (std::size_t k = 0; k < vectors; ++k)
@@ -164,11 +158,9 @@ void sums_and_winners(const RowShape& row_shape, const SgmSimdRows& r, const Sgm
       sum.set(k, hn::SaturatedAdd(path.get(k), hn::Load(d, sums + k * lanes)));
 
     for (std::size_t t = 0; t < kPaths; ++t) {
-      const auto floor = hn::Set(d, rows.above_least[t].data()[u + 1 + kShift[t]]);
-      const auto jump = hn::SaturatedAdd(floor, hn::Set(d, rows.top_penalty[t].data()[u]));
-      rows.current_least[t].data()[u + 1] =
-          top_path<kVectors>(vectors, cost, p1, jump, floor, rows.above[t].data() + shape.at(u + kShift[t]),
-                             rows.current[t].data() + at, sum);
+      const auto p2 = hn::Set(d, rows.top_penalty[t].data()[u]);
+      top_path<kVectors>(vectors, cost, p1, p2, rows.above[t].data() + shape.spaced_at(u + kShift[t]),
+                         rows.current[t].data() + spaced_at, sum);
     }
     if (!wanted) continue;
 
@@ -183,17 +175,17 @@ void sums_and_winners(const RowShape& row_shape, const SgmSimdRows& r, const Sgm
     lowest = in_every_byte(d, found);
     const auto limit = hn::Set(d, unique_limit[number(found)]);
     CandidateBits<kVectors> equal(vectors);
-    CandidateBits<kVectors> rivals(vectors);
+    CandidateBits<kVectors> unlike(vectors);
 #pragma GCC unroll 4
     for (std::size_t k = 0; k < vectors; ++k) {
       equal.set(k, mask_bits(d, hn::Eq(sum.get(k), lowest)));
-      // Below the limit: something is left of it.
-      rivals.set(k, mask_bits(d, hn::Ne(hn::SaturatedSub(limit, sum.get(k)), hn::Zero(d))));
+      // Nothing is left of the limit: not below it.
+      unlike.set(k, mask_bits(d, hn::Eq(hn::SaturatedSub(limit, sum.get(k)), hn::Zero(d))));
     }
     const int best = equal.first(vectors);
     winner[u] = best;
     std::memcpy(winner_sums + u, sums + best - 1, sizeof *winner_sums);
-    all_rivals[u] = rivals.not_near(vectors, best);
+    all_rivals[u] = unlike.missing(vectors, best);
   }
 }
 
