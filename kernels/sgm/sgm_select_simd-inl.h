@@ -22,37 +22,41 @@ namespace HWY_NAMESPACE {
 // Where there is no right pixel: far from every candidate.
 inline constexpr std::int16_t kNoRightWinner = -10'000;
 
-// The candidate that each right pixel matches best, of the right pixels in `valid`. As many right pixels as a vector has
-// bytes keep their least sum and its place in registers, while the left pixels that can match them pass by: their sums
+// The candidates that right pixels match best: as many of them as a vector has bytes, from y on (reversed). They keep
+// their least sums and the places of these in registers, while the left pixels that can match them pass by: their sums
 // for these right pixels lie side by side.
-inline void right_winners(const SearchRange& range, int width, const RowShape& shape, ReversedRange valid,
-                          const SgmSimdRows& rows) {
-  const Bytes d;
-  const hn::Repartition<std::int16_t, Bytes> d16;
-  const hn::Rebind<std::uint8_t, decltype(d16)> d8;  // as many bytes as words
-  const int lanes = static_cast<int>(hn::Lanes(d));
-  const int words = static_cast<int>(hn::Lanes(d16));
-  const int span = static_cast<int>(shape.pitch);
-  const std::size_t pitch = shape.spaced;
-  constexpr int kSteps = 255;  // places of a byte, 0 is none
-  const auto one = hn::Set(d, 1);
-  for (int y = valid.begin; y < valid.end; y += lanes) {
-    const int first_pixel = std::max(range.valid_begin, width - y - lanes);
-    const int last_pixel = std::min(range.valid_end, width - 1 - y + span);
+class RightWinners {
+ public:
+  RightWinners(const SearchRange& range, int width, const RowShape& shape, int y, const SgmSimdRows& rows)
+      : width_(width),
+        begin_(std::max(range.valid_begin, width - y - static_cast<int>(hn::Lanes(Bytes())))),
+        end_(std::min(range.valid_end, width - 1 - y + static_cast<int>(shape.pitch))),
+        y_(y),
+        pitch_(shape.spaced),
+        sums_(rows.sums.data()),
+        winners_(rows.right_winner.data() + y) {}
+
+  // The left pixel after the last that can match one of them.
+  int end() const { return end_; }
+
+  void find() const {
+    const Bytes d;
+    const std::size_t pitch = pitch_;
+    constexpr int kSteps = 255;  // places of a byte, 0 is none
+    const auto one = hn::Set(d, 1);
     auto lowest = hn::Set(d, 255);
-    for (int begin = first_pixel; begin < last_pixel; begin += kSteps) {
-      const int end = std::min(begin + kSteps, last_pixel);
+    for (int begin = begin_; begin < end_; begin += kSteps) {
+      const int end = std::min(begin + kSteps, end_);
       auto place = hn::Zero(d);
-      if (begin == first_pixel) {
+      if (begin == begin_) {
         // No sum is more than 255: the first left pixel that can match stands from the start.
-        const auto head = hn::Set(d, static_cast<std::uint8_t>(std::clamp(width - 1 - y - begin, 0, 254)));
+        const auto head = hn::Set(d, static_cast<std::uint8_t>(std::clamp(width_ - 1 - y_ - begin, 0, 254)));
         place = hn::Add(hn::SaturatedSub(head, hn::Iota(d, 0)), one);
       }
       auto step = one;
       // The sum of the vector's first right pixel; from one left pixel to the next it is that of the next candidate. What
       // lies before the candidates and after them is 255.
-      const std::uint8_t* sums =
-          rows.sums.data() + static_cast<std::ptrdiff_t>(pitch) * (begin + 1) + (y - (width - 1) + begin);
+      const std::uint8_t* sums = sums_ + static_cast<std::ptrdiff_t>(pitch) * (begin + 1) + candidate(begin);
 #pragma GCC unroll 4
       for (int u = begin; u < end; ++u, sums += pitch + 1) {
         const auto less = hn::Min(lowest, hn::LoadU(d, sums));
@@ -60,21 +64,41 @@ inline void right_winners(const SearchRange& range, int width, const RowShape& s
         lowest = less;
         step = hn::Add(step, one);
       }
-      alignas(kMaxVectorBytes) std::uint8_t places[kMaxVectorBytes];
-      hn::Store(place, d, places);
-      for (int k = 0; k < lanes; k += words) {
-        const auto steps = hn::PromoteTo(d16, hn::LoadU(d8, places + k));
-        const int before = y - (width - 1) + begin + k - 1;
-        const auto found =
-            hn::Add(hn::Add(steps, hn::Iota(d16, 0)), hn::Set(d16, static_cast<std::int16_t>(before)));
-        std::int16_t* winners = rows.right_winner.data() + y + k;
-        const auto kept = hn::LoadU(d16, winners);
-        hn::StoreU(hn::IfThenElse(hn::Eq(steps, hn::Zero(d16)), kept, found), d16, winners);
-      }
+      store(place, begin);
     }
   }
-  std::fill_n(rows.right_winner.begin() + valid.end, kMaxVectorBytes, kNoRightWinner);
-}
+
+ private:
+  // Of the first right pixel, for left pixel u.
+  HWY_INLINE int candidate(int u) const {
+    return y_ - (width_ - 1) + u;
+  }
+
+  // `place` counts the left pixels from `begin` on; where it is 0, what has been found before stays.
+  HWY_INLINE void store(ByteVec place, int begin) const {
+    const Bytes d;
+    const hn::Repartition<std::int16_t, Bytes> d16;
+    const hn::Rebind<std::uint8_t, decltype(d16)> d8;  // as many bytes as words
+    const int words = static_cast<int>(hn::Lanes(d16));
+    alignas(kMaxVectorBytes) std::uint8_t places[kMaxVectorBytes];
+    hn::Store(place, d, places);
+    for (int k = 0; k < static_cast<int>(hn::Lanes(d)); k += words) {
+      const auto steps = hn::PromoteTo(d16, hn::LoadU(d8, places + k));
+      const auto first = hn::Set(d16, static_cast<std::int16_t>(candidate(begin) + k - 1));
+      const auto found = hn::Add(hn::Add(steps, hn::Iota(d16, 0)), first);
+      const auto kept = hn::LoadU(d16, winners_ + k);
+      hn::StoreU(hn::IfThenElse(hn::Eq(steps, hn::Zero(d16)), kept, found), d16, winners_ + k);
+    }
+  }
+
+  int width_;
+  int begin_;
+  int end_;
+  int y_;
+  std::size_t pitch_;
+  const std::uint8_t* sums_;
+  std::int16_t* winners_;
+};
 
 // Decides about the pixels of a row.
 class Decide {

@@ -114,19 +114,35 @@ class SgmBand {
     costs_and_leftward_path<kVectors>(hamming_, shape_, rows_, three, last, p_.p1);
   }
 
+  // While a vector of right pixels finds its winners, the sums of the left pixels that can match them are still near.
   void sums(bool wanted) {
-    if (p_.paths == 5) {
-      sums_and_winners<kVectors, true>(shape_, rows_, p_, limits_, wanted);
-    } else {
-      sums_and_winners<kVectors, false>(shape_, rows_, p_, limits_, wanted);
+    SidePath<kVectors> path(shape_.vectors);
+    const int lanes = static_cast<int>(hn::Lanes(Bytes()));
+    int done = shape_.begin;
+    if (wanted && p_.select.left_right_max >= 0) {
+      const int vectors = (valid_.end - valid_.begin + lanes - 1) / lanes;
+      for (int i = vectors; i-- > 0;) {
+        const RightWinners right(p_.range, width_, shape_, valid_.begin + i * lanes, rows_);
+        sums(wanted, done, right.end(), path);
+        done = std::max(done, right.end());
+        right.find();
+      }
+      std::fill_n(rows_.right_winner.begin() + valid_.end, kMaxVectorBytes, kNoRightWinner);
     }
+    sums(wanted, done, shape_.end, path);
     std::swap_ranges(rows_.above, rows_.above + kMaxTopPaths, rows_.current);
+  }
+  void sums(bool wanted, int begin, int end, SidePath<kVectors>& path) {
+    if (p_.paths == 5) {
+      sums_and_winners<kVectors, true>(shape_, rows_, p_.p1, limits_, wanted, begin, end, path);
+    } else {
+      sums_and_winners<kVectors, false>(shape_, rows_, p_.p1, limits_, wanted, begin, end, path);
+    }
   }
 
   void select(int v, std::int16_t* disparity) const {
     std::fill(disparity, disparity + p_.range.valid_begin, std::int16_t{kNotSearched});
     std::fill(disparity + p_.range.valid_end, disparity + width_, std::int16_t{kNotSearched});
-    if (p_.select.left_right_max >= 0) right_winners(p_.range, width_, shape_, valid_, rows_);
     Decide(p_, width_, rows_).row(in_.textured.row(v), disparity);
   }
 

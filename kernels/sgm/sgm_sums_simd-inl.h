@@ -125,10 +125,12 @@ HWY_INLINE void top_path(std::size_t vectors, const PixelVecs<kVectors>& cost, B
     hn::Store(hn::Sub(path.get(k), floor), d, current + k * lanes);
 }
 
-// The other paths, S, and for a wanted row each pixel's winner with what decides about it.
+// The other paths, S, and for a wanted row each pixel's winner with what decides about it: of the pixels [begin, end),
+// where the path from the left has reached `state`.
 template <std::size_t kVectors, bool kDiagonal>
-void sums_and_winners(const RowShape& row_shape, const SgmSimdRows& r, const SgmParams& params,
-                      const std::uint8_t* unique_limit, bool wanted) {
+void sums_and_winners(const RowShape& row_shape, const SgmSimdRows& r, int p1_number,
+                      const std::uint8_t* unique_limit, bool wanted, int begin, int end,
+                      SidePath<kVectors>& state) {
   constexpr std::size_t kPaths = kDiagonal ? 3 : 1;
   constexpr int kShift[kMaxTopPaths] = {0, -1, 1};
   const Bytes d;
@@ -136,15 +138,15 @@ void sums_and_winners(const RowShape& row_shape, const SgmSimdRows& r, const Sgm
   const SgmSimdRows rows = r;
   const std::size_t lanes = hn::Lanes(d);
   const std::size_t vectors = kVectors > 0 ? kVectors : shape.vectors;
-  const auto p1 = hn::Set(d, static_cast<std::uint8_t>(params.p1));
+  const auto p1 = hn::Set(d, static_cast<std::uint8_t>(p1_number));
   const std::uint8_t* costs = rows.hamming[0].data() + shape.pitch;  // C of a pixel lies one further
   const std::uint8_t* side_penalty = rows.side_penalty.data();
   std::int32_t* winner = rows.winner.data();
   std::uint32_t* winner_sums = rows.winner_sums.data();
   std::uint64_t* all_rivals = rows.rivals.data();
-  SidePath<kVectors> path(vectors);
+  SidePath<kVectors> path = state;
   PixelVecs<kVectors> sum;
-  for (int u = shape.begin; u < shape.end; ++u) {
+  for (int u = begin; u < end; ++u) {
     const std::size_t at = shape.at(u);
     const std::size_t spaced_at = shape.spaced_at(u);
     std::uint8_t* sums = rows.sums.data() + spaced_at;
@@ -187,6 +189,7 @@ void sums_and_winners(const RowShape& row_shape, const SgmSimdRows& r, const Sgm
     std::memcpy(winner_sums + u, sums + best - 1, sizeof *winner_sums);
     all_rivals[u] = unlike.missing(vectors, best);
   }
+  state = path;
 }
 
 }  // namespace HWY_NAMESPACE
