@@ -50,19 +50,21 @@ void support_vector(const SupportWindow& w, std::int16_t* out) {
   const auto without = hn::Lt(own, hn::Zero(d));
   if (hn::AllTrue(d, without)) return hn::StoreU(own, d, out);
 
-  // A neighbour counts when below < it <= above; as `below` is at least -1, one without a disparity never does.
+  // A neighbour counts in [lowest, own + range], lowest being at least 0: less `lowest` and wrapped around, so that the
+  // whole interval lies at the lower end of the signed numbers, that is one comparison.
   const auto range = hn::Set(d, w.max_difference);
-  const auto above = hn::SaturatedAdd(own, range);
-  const auto below = hn::Sub(hn::Max(hn::SaturatedSub(own, range), hn::Zero(d)), hn::Set(d, std::int16_t{1}));
+  const auto end = hn::Set(d, std::int16_t{-32768});
+  const auto lowest = hn::Max(hn::SaturatedSub(own, range), hn::Zero(d));
+  const auto offset = hn::Sub(end, lowest);
+  const auto limit =
+      hn::Add(hn::Add(end, hn::Sub(hn::SaturatedAdd(own, range), lowest)), hn::Set(d, std::int16_t{1}));
   const auto too_few = hn::LoadU(d, w.too_few);
   auto count = hn::Zero(d);
   const auto add_row = [&](int y) {
     const std::int16_t* row = w.center + y * w.stride;
     for (int x = -w.radius; x <= w.radius; ++x) {
-      const auto other = hn::LoadU(d, row + x);
       // A true comparison is -1.
-      count = hn::Sub(count, hn::VecFromMask(d, hn::Gt(other, below)));
-      count = hn::Add(count, hn::VecFromMask(d, hn::Gt(other, above)));
+      count = hn::Sub(count, hn::VecFromMask(d, hn::Lt(hn::Add(hn::LoadU(d, row + x), offset), limit)));
     }
   };
   // From the pixel's own row outwards: most pixels of a surface have enough before the window is done.
