@@ -35,7 +35,7 @@ struct MatcherConfig {
   int support_min_percent = 30;
   int support_max_difference = 16;  // 1/16 px
   int bands = 4;
-  int band_warmup_rows = 8;
+  int band_warmup_rows = 4;
   int window_radius_px = 5;  // sad, census
   int window_uniqueness_percent = 10;
   int window_support_min_percent = 50;

@@ -34,7 +34,7 @@ struct SgmParams {
   int p2 = 135;   // p2_min <= p2 <= 182: C + P2 stays below 255
   int p2_min = 36;
   int p2_slope = 2;     // per grey level, 0..255
-  int warmup_rows = 8;  // rows above the band that start its top paths, >= 0
+  int warmup_rows = 4;  // rows above the band that start its top paths, >= 0
 };
 
 // Bytes of scratch for one band; independent of the height.

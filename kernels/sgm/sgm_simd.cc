@@ -153,7 +153,7 @@ class SgmBand {
   int width_;
   ReversedRange valid_;
   HammingRow hamming_;
-  std::uint8_t limits_[256];
+  std::uint32_t limits_[256];
 };
 
 void sgm_band(const SgmInput& input, const SgmParams& params, const SgmSimdRows& rows, Rows span,

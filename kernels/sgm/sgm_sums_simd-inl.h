@@ -18,11 +18,12 @@ HWY_BEFORE_NAMESPACE();
 namespace lakshya {
 namespace HWY_NAMESPACE {
 
-// Sums below this limit are too near to a least sum of `s`; 255 stands for everything from there on.
-inline void unique_limits(int uniqueness_percent, std::uint8_t (&limit)[256]) {
+// Sums below this limit are too near to a least sum of `s`; 255 stands for everything from there on. In all four bytes of
+// a word, which spreads over a vector by a load alone.
+inline void unique_limits(int uniqueness_percent, std::uint32_t (&limit)[256]) {
   const int share = 100 - uniqueness_percent;
   for (int s = 0; s < 256; ++s)
-    limit[s] = static_cast<std::uint8_t>(std::min((100 * s + share - 1) / share, 255));
+    limit[s] = 0x01010101U * static_cast<std::uint32_t>(std::min((100 * s + share - 1) / share, 255));
 }
 
 // The least sum from which on every other candidate is too near, those of 255 too.
@@ -129,7 +130,7 @@ HWY_INLINE void top_path(std::size_t vectors, const PixelVecs<kVectors>& cost, B
 // where the path from the left has reached `state`.
 template <std::size_t kVectors, bool kDiagonal>
 void sums_and_winners(const RowShape& row_shape, const SgmSimdRows& r, int p1_number,
-                      const std::uint8_t* unique_limit, bool wanted, int begin, int end,
+                      const std::uint32_t* unique_limit, bool wanted, int begin, int end,
                       SidePath<kVectors>& state) {
   constexpr std::size_t kPaths = kDiagonal ? 3 : 1;
   constexpr int kShift[kMaxTopPaths] = {0, -1, 1};
@@ -175,7 +176,8 @@ void sums_and_winners(const RowShape& row_shape, const SgmSimdRows& r, int p1_nu
     }
     const auto found = least(d, lowest);
     lowest = in_every_byte(d, found);
-    const auto limit = hn::Set(d, unique_limit[number(found)]);
+    const auto limit =
+        hn::BitCast(d, hn::Set(hn::Repartition<std::uint32_t, Bytes>(), unique_limit[number(found)]));
     CandidateBits<kVectors> equal(vectors);
     CandidateBits<kVectors> unlike(vectors);
 #pragma GCC unroll 4
