@@ -12,6 +12,7 @@
 
 #include "hwy/highway.h"
 #include "kernels/base/compress_simd-inl.h"
+#include "kernels/base/kept_simd-inl.h"
 #include "kernels/grid_bin/grid_bin.h"
 #include "kernels/project/pixels_simd-inl.h"
 
@@ -27,19 +28,20 @@ void bin_obstacles(const Frame& f, const RowTerms& t, Work& w) {
   Cells& cells = w.obstacle_cells;
   cells.count = 0;
   for (int i = 0; i < w.obstacles.count; i += static_cast<int>(hn::Lanes(d))) {
-    const Column c = column_at(w.obstacles, i);
+    const auto pixels = hn::LoadU(d, w.obstacles.pixel + i);
+    const auto u = columns_of(pixels);
     const auto last = hn::Set(d, static_cast<std::int32_t>(m.depth_mm.size()) - 1);
-    const auto index = hn::Min(hn::Max(c.disparity, hn::Set(d, 1)), last);
+    const auto index = hn::Min(hn::Max(disparities_of(pixels), hn::Set(d, 1)), last);
     const auto depth = hn::GatherIndex(d, m.depth_mm.data(), index);
-    const auto ahead = hn::Add(scaled_product<16>(depth, per_depth(t.forward, c.u)), hn::Set(d, m.forward_mm));
+    const auto ahead = hn::Add(scaled_product<16>(depth, per_depth(t.forward, u)), hn::Set(d, m.forward_mm));
     const auto forward = hn::Max(ahead, hn::Zero(d));
-    const auto across = across_at(f, scaled_product<16>(depth, per_depth(t.left, c.u)));
+    const auto across = across_at(f, scaled_product<16>(depth, per_depth(t.left, u)));
     const auto inside = hn::And(
         hn::And(hn::Lt(forward, hn::Set(d, g.rows * g.cell_mm)), hn::Lt(across, hn::Set(d, g.cols * g.cell_mm))),
         hn::Gt(across, hn::Set(d, -1)));
     const auto valid = hn::And(inside, hn::FirstN(d, static_cast<std::size_t>(w.obstacles.count - i)));
     const auto scale = hn::GatherIndex(d, m.height_scale.data(), index);
-    const auto height = hn::Sub(hn::Set(d, m.height_mm), scaled_product<28>(value_at(t.floor, c.u), scale));
+    const auto height = hn::Sub(hn::Set(d, m.height_mm), scaled_product<28>(value_at(t.floor, u), scale));
     const auto cell =
         hn::Add(hn::Mul(cell_of(f, forward), hn::Set(d, static_cast<std::int32_t>(f.grid.count.stride))),
                 cell_of(f, across));
@@ -76,39 +78,36 @@ HWY_INLINE void count_cells(Cells& cells, std::uint32_t* plane) {
   cells.count = 0;
 }
 
+// mm, across from the map's left border. Kept: no constructor of the target's vectors runs outside of inlined functions.
 struct Spot {
-  V32 forward, across;  // mm; across from the map's left border
+  HWY_INLINE Spot(V32 forward_mm, V32 across_mm) : forward(forward_mm), across(across_mm) {}
+  Kept<D32> forward, across;
 };
 
 struct Strip {
+  HWY_INLINE Strip(const Spot& near_end, const Spot& far_end) : near(near_end), far(far_end) {}
   Spot near, far;
-  V32 near_row, near_col, far_row, far_col;
 };
 
-HWY_INLINE Strip strip_at(const Frame& f, const RowTerms& t, const Column& c) {
+HWY_INLINE Spot spot_at(const Frame& f, V32 depth, V32 forward, V32 left) {
+  const auto mount = hn::Set(D32(), f.model.forward_mm);
+  return {hn::Add(scaled_product<16>(depth, forward), mount), across_at(f, scaled_product<16>(depth, left))};
+}
+
+HWY_INLINE Strip strip_at(const Frame& f, const RowTerms& t, V32 pixels) {
   const D32 d;
-  const auto here = hn::Max(value_at(t.floor, c.u), hn::ShiftLeft<kDisparityToQ16>(c.disparity));
+  const auto u = columns_of(pixels);
+  const auto here = hn::Max(value_at(t.floor, u), hn::ShiftLeft<kDisparityToQ16>(disparities_of(pixels)));
   const auto half_row = hn::Set(d, t.half_row);
   const auto round = hn::Set(d, 1 << (kDisparityToQ16 - 1));
-  const auto depth = [&](V32 q16) {
-    return depth_at(f.model, hn::ShiftRight<kDisparityToQ16>(hn::Add(q16, round)));
-  };
-  const auto near_depth = depth(hn::Add(here, half_row));
-  const auto far_depth = depth(hn::Max(hn::Sub(here, half_row), hn::Set(d, t.min_disparity)));
-  const auto forward = per_depth(t.forward, c.u);
-  const auto left = per_depth(t.left, c.u);
-  const auto mount = hn::Set(d, f.model.forward_mm);
-  const auto spot = [&](V32 z) {
-    return Spot{hn::Add(scaled_product<16>(z, forward), mount), across_at(f, scaled_product<16>(z, left))};
-  };
-  Strip s;
-  s.near = spot(near_depth);
-  s.far = spot(far_depth);
-  s.near_row = cell_of(f, s.near.forward);
-  s.near_col = cell_of(f, s.near.across);
-  s.far_row = cell_of(f, s.far.forward);
-  s.far_col = cell_of(f, s.far.across);
-  return s;
+  const auto near_entry = hn::ShiftRight<kDisparityToQ16>(hn::Add(hn::Add(here, half_row), round));
+  const auto farthest = hn::Set(d, t.min_disparity);
+  const auto far_entry =
+      hn::ShiftRight<kDisparityToQ16>(hn::Add(hn::Max(hn::Sub(here, half_row), farthest), round));
+  const auto forward = per_depth(t.forward, u);
+  const auto left = per_depth(t.left, u);
+  return {spot_at(f, depth_at(f.model, near_entry), forward, left),
+          spot_at(f, depth_at(f.model, far_entry), forward, left)};
 }
 
 // A whole vector, kOutside where a lane is not in `which` or not on the map.
@@ -130,6 +129,10 @@ void append_between(const Frame& f, const Strip& s, V32 steps, M32 valid, std::i
                     std::uint32_t* plane, Cells& to) {
   const D32 d;
   const DFloat floats;
+  const auto near_forward = s.near.forward.get();
+  const auto near_across = s.near.across.get();
+  const auto far_forward = s.far.forward.get();
+  const auto far_across = s.far.across.get();
   const auto per_step = hn::Div(hn::Set(floats, 1.0F), hn::ConvertTo(floats, hn::Max(steps, hn::Set(d, 1))));
   // Truncates (far - near) * i / steps as integers do.
   const auto between = [&](V32 near, V32 far, V32 i) {
@@ -140,8 +143,8 @@ void append_between(const Frame& f, const Strip& s, V32 steps, M32 valid, std::i
   for (std::int32_t step = 1; step < most; ++step) {
     const auto i = hn::Set(d, step);
     if (to.count >= kCellRoom - static_cast<int>(hn::Lanes(d))) count_cells(to, plane);
-    append_cells(f, cell_of(f, between(s.near.forward, s.far.forward, i)),
-                 cell_of(f, between(s.near.across, s.far.across, i)), hn::And(valid, hn::Gt(steps, i)), stride, to);
+    append_cells(f, cell_of(f, between(near_forward, far_forward, i)),
+                 cell_of(f, between(near_across, far_across, i)), hn::And(valid, hn::Gt(steps, i)), stride, to);
   }
 }
 
@@ -150,10 +153,10 @@ void bin_long_strips(const Frame& f, const Strip& s, int count, const ImageView<
   const D32 d;
   constexpr int kMost = static_cast<int>(HWY_MAX_BYTES) / 4;
   std::int32_t mm[4][kMost];
-  hn::StoreU(s.near.forward, d, mm[0]);
-  hn::StoreU(s.near.across, d, mm[1]);
-  hn::StoreU(s.far.forward, d, mm[2]);
-  hn::StoreU(s.far.across, d, mm[3]);
+  hn::StoreU(s.near.forward.get(), d, mm[0]);
+  hn::StoreU(s.near.across.get(), d, mm[1]);
+  hn::StoreU(s.far.forward.get(), d, mm[2]);
+  hn::StoreU(s.far.across.get(), d, mm[3]);
   const std::int32_t border = f.grid.geometry.cols / 2 * f.grid.geometry.cell_mm;
   for (int k = 0; k < count; ++k) {
     const GroundStrip strip{mm[0][k], border - mm[1][k], mm[2][k], border - mm[3][k]};
@@ -168,24 +171,32 @@ void bin_ground(const Frame& f, const RowTerms& t, const Pixels& pixels, const I
   const auto stride = static_cast<std::int32_t>(plane.stride);
   Cells& further = w.further_cells;
   for (int i = 0; i < pixels.count; i += lanes) {
-    const Strip s = strip_at(f, t, column_at(pixels, i));
+    const Strip s = strip_at(f, t, hn::LoadU(d, pixels.pixel + i));
+    const auto near_forward = s.near.forward.get();
+    const auto near_across = s.near.across.get();
+    const auto far_forward = s.far.forward.get();
+    const auto far_across = s.far.across.get();
+    const auto near_row = cell_of(f, near_forward);
+    const auto near_col = cell_of(f, near_across);
+    const auto far_row = cell_of(f, far_forward);
+    const auto far_col = cell_of(f, far_across);
     const auto valid = hn::FirstN(d, static_cast<std::size_t>(pixels.count - i));
     const auto steps = hn::IfThenElseZero(
-        valid, hn::Max(hn::Abs(hn::Sub(s.far_row, s.near_row)), hn::Abs(hn::Sub(s.far_col, s.near_col))));
+        valid, hn::Max(hn::Abs(hn::Sub(far_row, near_row)), hn::Abs(hn::Sub(far_col, near_col))));
     const auto longer = hn::Gt(steps, hn::Zero(d));
     if (!hn::AllFalse(d, hn::Gt(steps, hn::Set(d, 1)))) {
       const std::int32_t most = hn::GetLane(hn::MaxOfLanes(d, steps));
       const auto extent =
-          hn::Max(hn::Abs(hn::Sub(s.far.forward, s.near.forward)), hn::Abs(hn::Sub(s.far.across, s.near.across)));
+          hn::Max(hn::Abs(hn::Sub(far_forward, near_forward)), hn::Abs(hn::Sub(far_across, near_across)));
       if (most > kMaxSteps || !hn::AllFalse(d, hn::And(valid, hn::Gt(extent, hn::Set(d, kMaxStripMm))))) {
         bin_long_strips(f, s, std::min(lanes, pixels.count - i), plane);
         continue;
       }
       append_between(f, s, steps, valid, most, stride, plane.data, further);
     }
-    append_cells(f, s.near_row, s.near_col, valid, stride, w.first_cells);
+    append_cells(f, near_row, near_col, valid, stride, w.first_cells);
     if (further.count >= kCellRoom - lanes) count_cells(further, plane.data);
-    if (!hn::AllFalse(d, longer)) append_cells(f, s.far_row, s.far_col, longer, stride, further);
+    if (!hn::AllFalse(d, longer)) append_cells(f, far_row, far_col, longer, stride, further);
   }
   count_cells(w.first_cells, plane.data);
   count_cells(further, plane.data);

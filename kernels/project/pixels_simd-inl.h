@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "hwy/highway.h"
+#include "kernels/base/compress_simd-inl.h"
 #include "kernels/base/nav_grid.h"
 #include "kernels/project/row_terms.h"
 #include "kernels/prune/prune.h"
@@ -22,9 +23,12 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using D16 = hn::ScalableTag<std::int16_t>;
 using D32 = hn::ScalableTag<std::int32_t>;
+using DU16 = hn::RebindToUnsigned<D16>;
 using Half16 = hn::Rebind<std::int16_t, D32>;  // as many as D32 has
 using DFloat = hn::RebindToFloat<D32>;
 using V16 = hn::Vec<D16>;
+using VU16 = hn::Vec<DU16>;
+using M16 = hn::Mask<D16>;
 using V32 = hn::Vec<D32>;
 using M32 = hn::Mask<D32>;
 
@@ -35,6 +39,19 @@ constexpr int kCellRoom = 4 * kPiece;
 // Pixels of one class: column << 16 | disparity.
 struct Pixels {
   alignas(64) std::int32_t pixel[kRoom] = {};
+  int count = 0;
+};
+
+// A direction in a piece's columns: per depth, whole millimetres and 2^-16 of them.
+struct Direction16 {
+  alignas(64) std::int16_t whole[kRoom];
+  alignas(64) std::uint16_t part[kRoom];
+};
+
+// Cells of a map of less than 2^16, and where a run of equal ones ends.
+struct Cells16 {
+  alignas(64) std::uint16_t index[kRoom];
+  alignas(64) std::int32_t ends[kRoom];
   int count = 0;
 };
 
@@ -49,8 +66,12 @@ struct Work {
   Pixels obstacles, floor, below;
   alignas(64) std::int16_t disparity[kRoom] = {};  // a piece shorter than a whole number of vectors
   alignas(64) std::int16_t nothing[kRoom], drop[kRoom], floor_limit[kRoom], ceiling_low[kRoom], ceiling_high[kRoom];
-  alignas(64) std::uint8_t classes[kRoom];
+  alignas(64) std::int16_t classes[kRoom];
+  Direction16 forward, left;
+  alignas(64) std::int16_t near_floor[kRoom], far_floor[kRoom];
+  Cells16 near_cells, far_cells;
   alignas(64) std::int32_t heights[kRoom] = {};
+  alignas(64) std::int64_t height_sums[kRoom];
   Cells obstacle_cells, first_cells, further_cells;
 };
 
@@ -59,7 +80,22 @@ struct Frame {
   const NavGrid& grid;
   float cells_per_mm;
   float to_middle;  // half a millimetre less half a cell, in cells
+  bool narrow;      // the map's cells can be counted in 16 bits
+  CellDivider divider;
 };
+
+// Pixels of a vector, as they are gathered: in two halves of 32-bit lanes.
+HWY_INLINE void append(int u, V16 disparity, M16 mask, Pixels& to) {
+  const D16 d;
+  const D32 d32;
+  const Half16 half;
+  if (hn::AllFalse(d, mask)) return;
+  const auto first = hn::Add(hn::ShiftLeft<16>(hn::Iota(d32, 0)), hn::Set(d32, u << 16));
+  const auto half_way = hn::Set(d32, static_cast<std::int32_t>(hn::Lanes(d32)) << 16);
+  const auto low = hn::Or(first, hn::PromoteTo(d32, hn::LowerHalf(half, disparity)));
+  const auto high = hn::Or(hn::Add(first, half_way), hn::PromoteTo(d32, hn::UpperHalf(half, disparity)));
+  to.count += static_cast<int>(compress_store_two(low, high, mask, d32, d, to.pixel + to.count));
+}
 
 // first, first + 1, ...; Highway's Iota with a first that is not known stores the lanes one by one.
 HWY_INLINE V32 from(std::int32_t first) {
@@ -114,14 +150,12 @@ HWY_INLINE V32 depth_at(const PruneModel& m, V32 index) {
   return hn::GatherIndex(d, m.depth_mm.data(), hn::Min(hn::Max(index, hn::Set(d, 1)), last));
 }
 
-struct Column {
-  V32 u, disparity;
-};
+HWY_INLINE V32 columns_of(V32 pixels) {
+  return hn::ShiftRight<16>(pixels);
+}
 
-HWY_INLINE Column column_at(const Pixels& p, int i) {
-  const D32 d;
-  const auto pixel = hn::LoadU(d, p.pixel + i);
-  return {hn::ShiftRight<16>(pixel), hn::And(pixel, hn::Set(d, 0xFFFF))};
+HWY_INLINE V32 disparities_of(V32 pixels) {
+  return hn::And(pixels, hn::Set(D32(), 0xFFFF));
 }
 
 // How far right of the map's left border.

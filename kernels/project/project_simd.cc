@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "hwy/highway.h"
+#include "kernels/project/bin_narrow_simd-inl.h"
 #include "kernels/project/bin_pixels_simd-inl.h"
 #include "kernels/project/pixels_simd-inl.h"
 #include "kernels/project/project.h"
@@ -34,22 +35,25 @@ void project_row(const Frame& f, const RowTerms& t, const std::int16_t* disparit
       std::fill(w.disparity + count, w.disparity + whole, std::int16_t{0});
       from = w.disparity;
     }
-    w.obstacles.count = w.floor.count = w.below.count = 0;
     if (t.level) {
-      sort_pixels<true>(t, from, begin, whole, classes != nullptr, counts, w);
+      sort_pixels<true>(t, from, whole, counts, w);
     } else {
       fill_limits(f.model, t, begin, whole, w);
-      sort_pixels<false>(t, from, begin, whole, classes != nullptr, counts, w);
+      sort_pixels<false>(t, from, whole, counts, w);
     }
     // What filled up the last vector was too far.
     counts.by_class[static_cast<int>(PixelClass::too_far)] -= static_cast<std::uint32_t>(whole - count);
-    if (classes != nullptr) {
-      std::transform(w.classes, w.classes + count, classes + begin,
-                     [](std::uint8_t c) { return static_cast<PixelClass>(c); });
+    if (classes != nullptr) write_classes(w, count, classes + begin);
+    if (t.narrow.fits && f.narrow) {
+      bin_narrow(f, t, from, begin, whole, w);
+      continue;
     }
+    gather_class(PixelClass::obstacle, from, begin, whole, w, w.obstacles);
+    gather_class(PixelClass::floor, from, begin, whole, w, w.floor);
+    gather_class(PixelClass::drop_off, from, begin, whole, w, w.below);
     bin_obstacles(f, t, w);
     bin_ground(f, t, w.floor, f.grid.floor_count, w);
-    if (w.below.count > 0) bin_ground(f, t, w.below, f.grid.below_count, w);
+    bin_ground(f, t, w.below, f.grid.below_count, w);
   }
 }
 
@@ -60,10 +64,17 @@ bool planes_fit(const NavGrid& grid) {
   return grid.count.stride == grid.height_sum.stride && widest <= (1 << 30) / grid.geometry.rows;
 }
 
+// The index of a cell in 16 bits, 0xFFFF not used.
+bool cells_fit(const NavGrid& grid) {
+  const std::ptrdiff_t widest = std::max({grid.count.stride, grid.floor_count.stride, grid.below_count.stride});
+  return widest <= 0xFFFF / grid.geometry.rows;
+}
+
 void project_rows(const PruneModel& model, ImageView<const std::int16_t> disparity, Rows rows, const NavGrid& grid,
                   PixelCounts& counts, ImageView<PixelClass> classes, std::span<std::byte> scratch) {
   const float cells_per_mm = 1.0F / static_cast<float>(grid.geometry.cell_mm);
-  const Frame frame{model, grid, cells_per_mm, 0.5F * cells_per_mm - 0.5F};
+  const Frame frame{model, grid, cells_per_mm, 0.5F * cells_per_mm - 0.5F, cells_fit(grid),
+                    make_cell_divider(grid.geometry.cell_mm)};
   Work work;
   RowTerms terms;
   const bool plain = planes_fit(grid);

@@ -1,6 +1,7 @@
 #include "kernels/project/row_terms.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 #include <limits>
 
@@ -52,11 +53,15 @@ ClassLimits limits_of_row(const PruneModel& m, int v) {
   return limits;
 }
 
+// The tables' entry for a disparity.
+std::int64_t entry_of(std::int64_t disparity_q16) {
+  return (disparity_q16 + (1 << (kDisparityToQ16 - 1))) >> kDisparityToQ16;
+}
+
 // The largest depth that a pixel kept can have.
 std::int64_t largest_depth(const PruneModel& m) {
-  const std::int64_t nearest = (m.min_disparity + (1 << (kDisparityToQ16 - 1))) >> kDisparityToQ16;
   const auto last = static_cast<std::int64_t>(m.depth_mm.size()) - 1;
-  return m.depth_mm[static_cast<std::size_t>(std::clamp<std::int64_t>(nearest, 1, last))];
+  return m.depth_mm[static_cast<std::size_t>(std::clamp<std::int64_t>(entry_of(m.min_disparity), 1, last))];
 }
 
 bool row_direction(const Affine& a, int v, int width, std::int64_t depth, std::int64_t mount, RowDirection& out) {
@@ -72,6 +77,55 @@ bool row_direction(const Affine& a, int v, int width, std::int64_t depth, std::i
   return true;
 }
 
+// The least and the largest coordinate that a row's pixels can have, mount included.
+struct Reach {
+  std::int64_t least, most;
+};
+
+Reach reach_of(const Affine& a, int v, int width, std::int64_t depth, std::int64_t mount) {
+  const std::int64_t first = a.at(0, v) >> 16;
+  const std::int64_t last = a.at(width, v) >> 16;
+  const std::int64_t low = std::min({first, last, std::int64_t{0}}) - 1;
+  const std::int64_t high = std::max({first, last, std::int64_t{0}}) + 2;
+  return {(depth * low >> 16) - 1 + mount, (depth * high >> 16) + 1 + mount};
+}
+
+NarrowTerms narrow_terms(const PruneModel& m, const GridGeometry& g, int v, int width, const RowTerms& t) {
+  constexpr std::int64_t kMostDepth = 1 << 15;
+  constexpr std::int64_t kMost = 1 << 14;  // cells, table entries
+  const CellDivider divider = make_cell_divider(g.cell_mm);
+  NarrowTerms n;
+  const std::int64_t depth = largest_depth(m);
+  const std::int64_t map_border = std::int64_t{g.cols / 2} * g.cell_mm;
+  const Reach ahead = reach_of(m.forward, v, width, depth, m.forward_mm);
+  const Reach left = reach_of(m.left, v, width, depth, m.left_mm);
+  const Reach across{map_border - left.most, map_border - left.least};
+  const auto cells_before = [&](const Reach& r) {
+    return r.least >= 0 ? 0 : (-r.least + g.cell_mm - 1) / g.cell_mm;
+  };
+  const std::int64_t rows_before = cells_before(ahead);
+  const std::int64_t cols_before = cells_before(across);
+  const std::int64_t near_step = entry_of(t.half_row);
+  const std::int64_t far_step = entry_of(-std::int64_t{t.half_row});
+  n.fits = depth < kMostDepth && ahead.most + rows_before * g.cell_mm <= divider.limit &&
+           across.most + cols_before * g.cell_mm <= divider.limit && std::max(rows_before, cols_before) < kMost &&
+           near_step < kMost && far_step > -kMost;
+  if (!n.fits) return n;
+  n.straight = t.level && t.forward.whole_per_u == 0 && t.forward.part_per_u == 0;
+  // Sums that may be negative, as the mount's, are right modulo 2^16.
+  n.ahead_mm = static_cast<std::uint16_t>(m.forward_mm + rows_before * g.cell_mm);
+  n.across_mm = static_cast<std::uint16_t>(map_border - m.left_mm + cols_before * g.cell_mm);
+  n.first_row = static_cast<std::int16_t>(rows_before);
+  n.first_col = static_cast<std::int16_t>(cols_before);
+  n.last_depth = saturated(static_cast<std::int64_t>(m.depth_mm.size()) - 1);
+  n.near_step = static_cast<std::int16_t>(near_step);
+  n.far_step = static_cast<std::int16_t>(far_step);
+  n.farthest = saturated(std::max<std::int64_t>(entry_of(t.min_disparity), 1));
+  n.near_floor = saturated(std::max<std::int64_t>(entry_of(std::int64_t{t.floor.at_0} + t.half_row), 1));
+  n.far_floor = std::max(saturated(entry_of(std::int64_t{t.floor.at_0} - t.half_row)), n.farthest);
+  return n;
+}
+
 bool bounds_fit(const PruneModel& m, int v, int width, RowTerms& t) {
   return narrow_to_row(m.drop_relative, v, width, t.drop_relative) &&
          narrow_to_row(m.drop_absolute, v, width, t.drop_absolute) &&
@@ -85,6 +139,20 @@ bool grid_fits(const GridGeometry& g) {
 }
 
 }  // namespace
+
+// The multiplier 2^(16 + shift) / cell, rounded up, has its highest bit set, so that the quotient is right at least up to
+// 2^15: the excess of multiplier * cell over 2^(16 + shift) is below cell <= 2^(shift + 1).
+CellDivider make_cell_divider(int cell_mm) {
+  CellDivider divider;
+  if (cell_mm < 2 || cell_mm > 1 << 15) return divider;
+  divider.shift = std::bit_width(static_cast<unsigned>(cell_mm - 1)) - 1;
+  const std::int64_t scale = std::int64_t{1} << (16 + divider.shift);
+  const std::int64_t multiplier = (scale + cell_mm - 1) / cell_mm;
+  const std::int64_t excess = multiplier * cell_mm - scale;
+  divider.multiplier = static_cast<std::uint16_t>(multiplier);
+  divider.limit = excess == 0 ? 0xFFFF : std::min<std::int64_t>((scale - 1) / excess, 0xFFFF);
+  return divider;
+}
 
 bool make_row_terms(const PruneModel& m, const GridGeometry& grid, int v, int width, RowTerms& t) {
   if (width > kRowLineMaxWidth || !grid_fits(grid) || m.depth_mm.size() < 2 ||
@@ -105,6 +173,7 @@ bool make_row_terms(const PruneModel& m, const GridGeometry& grid, int v, int wi
   t.max_floor_disparity = static_cast<std::int32_t>(m.max_floor_disparity);
   t.min_disparity = static_cast<std::int32_t>(m.min_disparity);
   t.half_row = static_cast<std::int32_t>(half_row);
+  t.narrow = narrow_terms(m, grid, v, width, t);
   return true;
 }
 

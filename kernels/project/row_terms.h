@@ -28,6 +28,32 @@ struct RowDirection {
   std::uint32_t part_per_u = 0;
 };
 
+// floor(x / cell) = x * multiplier >> (16 + shift) for 0 <= x <= limit.
+struct CellDivider {
+  std::uint16_t multiplier = 0;
+  int shift = 0;
+  std::int64_t limit = -1;
+};
+CellDivider make_cell_divider(int cell_mm);
+
+// Where the row's pixels lie, in 16 bits: millimetres from a cell's border so far behind the map, and so far to its
+// left, that none is negative.
+struct NarrowTerms {
+  bool fits = false;
+  bool straight = false;            // level, and `forward` is the same in the whole row
+  std::uint16_t ahead_mm = 0;       // what the mount adds
+  std::uint16_t across_mm = 0;      // what the distance to the left is taken from
+  std::int16_t first_row = 0;       // the map's, in cells from there
+  std::int16_t first_col = 0;
+  std::int16_t last_depth = 0;      // last entry of the tables that a disparity reaches
+  // Table entry of a strip's near and far end: the floor's own (straight rows), what a disparity adds to itself.
+  std::int16_t near_floor = 0;
+  std::int16_t far_floor = 0;
+  std::int16_t near_step = 0;
+  std::int16_t far_step = 0;
+  std::int16_t farthest = 0;        // no end is farther
+};
+
 struct RowTerms {
   std::int16_t far = 0;  // d <= far: too far
   bool level = false;    // the limits are the same in the whole row: `limits`; else they come from the lines
@@ -37,6 +63,7 @@ struct RowTerms {
   std::int32_t min_disparity = 0;
   std::int32_t half_row = 0;  // what half a row changes the floor's disparity by
   RowDirection forward, left;
+  NarrowTerms narrow;
 };
 
 // Coordinates within which a millimetre and its cell are exact in float arithmetic.

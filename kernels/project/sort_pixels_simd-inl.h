@@ -45,17 +45,6 @@ void fill_limits(const PruneModel& model, const RowTerms& t, int begin, int coun
   }
 }
 
-// A vector of pixels, in two halves of 32-bit lanes.
-struct TwoHalves {
-  V32 low, high;
-};
-
-HWY_INLINE void append(const TwoHalves& pixels, hn::Mask<D16> mask, Pixels& to) {
-  const D16 d;
-  if (hn::AllFalse(d, mask)) return;
-  to.count += static_cast<int>(compress_store_two(pixels.low, pixels.high, mask, D32(), d, to.pixel + to.count));
-}
-
 void count_reasons(const D16 d, V16 disparity, std::size_t negative, PixelCounts& counts) {
   for (int reason = 1; reason < kNoDisparityReasons; ++reason) {
     const auto code = hn::Set(d, static_cast<std::int16_t>(-1 - reason));
@@ -66,68 +55,79 @@ void count_reasons(const D16 d, V16 disparity, std::size_t negative, PixelCounts
   counts.by_reason[0] += static_cast<std::uint32_t>(negative);
 }
 
-// Pixels [begin, begin + count) of a row, count a whole number of vectors, at `disparity`.
-template <bool kLevel>
-void sort_pixels(const RowTerms& t, const std::int16_t* disparity, int begin, int count, bool want_classes,
-                 PixelCounts& counts, Work& w) {
-  const D16 d;
-  const D32 d32;
+HWY_INLINE std::int32_t sum_of_lanes(V16 lanes) {
+  const D32 d;
   const Half16 half;
-  const hn::Rebind<std::uint8_t, D16> bytes;
+  const auto halves = hn::Add(hn::PromoteTo(d, hn::LowerHalf(half, lanes)), hn::PromoteTo(d, hn::UpperHalf(half, lanes)));
+  return hn::GetLane(hn::SumOfLanes(d, halves));
+}
+
+// Classes of `count` pixels, a whole number of vectors, at `disparity`, into w.classes.
+template <bool kLevel>
+void sort_pixels(const RowTerms& t, const std::int16_t* disparity, int count, PixelCounts& counts, Work& w) {
+  const D16 d;
   const auto limit = [&](std::int16_t of_row, const std::int16_t* of_column) {
     return kLevel ? hn::Set(d, of_row) : hn::Load(d, of_column);
   };
+  const auto code = [&](PixelClass c) { return hn::Set(d, static_cast<std::int16_t>(c)); };
+  const ClassLimits limits = t.limits;  // stores to w cannot change a local
   const auto far_limit = hn::Set(d, t.far);
-  std::size_t far_or_negative = 0, negative = 0, nothing_count = 0, drop_count = 0, floor_count = 0,
-              ceiling_count = 0;
+  // Minus the number found in each lane, which 16 bits hold for a piece.
+  static_assert(kPiece < 1 << 15);
+  auto negatives = hn::Zero(d), near_count = negatives, known_count = negatives, drop_count = negatives,
+       floor_count = negatives, obstacle_count = negatives;
+  const auto found = [&](V16& sum, M16 mask) { sum = hn::Add(sum, hn::VecFromMask(d, mask)); };
   for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d))) {
     const auto x = hn::LoadU(d, disparity + i);
     const auto is_negative = hn::Lt(x, hn::Zero(d));
-    const std::size_t negatives = hn::CountTrue(d, is_negative);
-    if (negatives > 0) count_reasons(d, x, negatives, counts);
-    negative += negatives;
+    if (!hn::AllFalse(d, is_negative)) count_reasons(d, x, hn::CountTrue(d, is_negative), counts);
+    found(negatives, is_negative);
     const auto near = hn::Gt(x, far_limit);
-    far_or_negative += hn::CountTrue(d, hn::Not(near));
-    const auto known = hn::And(near, hn::Gt(x, limit(t.limits.nothing, w.nothing + i)));
-    const auto above_drop = hn::Gt(x, limit(t.limits.drop, w.drop + i));
-    const auto above_floor = hn::Gt(x, limit(t.limits.floor, w.floor_limit + i));
-    const auto in_room = hn::AndNot(hn::Gt(x, limit(t.limits.ceiling_high, w.ceiling_high + i)),
-                                    hn::Gt(x, limit(t.limits.ceiling_low, w.ceiling_low + i)));
+    const auto known = hn::And(near, hn::Gt(x, limit(limits.nothing, w.nothing + i)));
+    const auto above_drop = hn::Gt(x, limit(limits.drop, w.drop + i));
+    const auto above_floor = hn::Gt(x, limit(limits.floor, w.floor_limit + i));
+    const auto in_room = hn::AndNot(hn::Gt(x, limit(limits.ceiling_high, w.ceiling_high + i)),
+                                    hn::Gt(x, limit(limits.ceiling_low, w.ceiling_low + i)));
     const auto drop = hn::AndNot(above_drop, known);
     const auto standing = hn::And(known, hn::And(above_drop, above_floor));
     const auto floor = hn::AndNot(above_floor, hn::And(known, above_drop));
     const auto obstacle = hn::And(standing, in_room);
-    if (!kLevel || t.limits.nothing >= 0) nothing_count += hn::CountTrue(d, hn::AndNot(known, near));
-    const auto first = hn::ShiftLeft<16>(from(begin + i));
-    const auto half_way = hn::Set(d32, static_cast<std::int32_t>(hn::Lanes(d32)) << 16);
-    const TwoHalves pixels = {hn::Or(first, hn::PromoteTo(d32, hn::LowerHalf(half, x))),
-                              hn::Or(hn::Add(first, half_way), hn::PromoteTo(d32, hn::UpperHalf(half, x)))};
-    append(pixels, obstacle, w.obstacles);
-    append(pixels, floor, w.floor);
-    append(pixels, drop, w.below);
-    if (!want_classes) continue;
-    const auto code = [&](PixelClass c) { return hn::Set(d, static_cast<std::int16_t>(c)); };
+    found(near_count, near);
+    found(known_count, known);
+    found(drop_count, drop);
+    found(floor_count, floor);
+    found(obstacle_count, obstacle);
     auto classes = hn::IfThenElseZero(hn::Not(hn::Or(near, is_negative)), code(PixelClass::too_far));
     classes = hn::IfThenElse(standing, code(PixelClass::ceiling), classes);
     classes = hn::IfThenElse(obstacle, code(PixelClass::obstacle), classes);
     classes = hn::IfThenElse(floor, code(PixelClass::floor), classes);
     classes = hn::IfThenElse(drop, code(PixelClass::drop_off), classes);
-    hn::StoreU(hn::DemoteTo(bytes, classes), bytes, w.classes + i);
+    hn::Store(classes, d, w.classes + i);
   }
-  drop_count = static_cast<std::size_t>(w.below.count);
-  floor_count = static_cast<std::size_t>(w.floor.count);
-  const auto obstacle_count = static_cast<std::size_t>(w.obstacles.count);
-  ceiling_count =
-      static_cast<std::size_t>(count) - far_or_negative - nothing_count - drop_count - floor_count - obstacle_count;
-  const auto add = [&](PixelClass c, std::size_t n) {
-    counts.by_class[static_cast<int>(c)] += static_cast<std::uint32_t>(n);
-  };
-  add(PixelClass::no_disparity, negative + nothing_count);
-  add(PixelClass::too_far, far_or_negative - negative);
-  add(PixelClass::drop_off, drop_count);
-  add(PixelClass::floor, floor_count);
-  add(PixelClass::ceiling, ceiling_count);
-  add(PixelClass::obstacle, obstacle_count);
+  const auto sum = [&](V16 lanes) { return static_cast<std::uint32_t>(-sum_of_lanes(lanes)); };
+  const auto add = [&](PixelClass c, std::uint32_t n) { counts.by_class[static_cast<int>(c)] += n; };
+  const std::uint32_t negative = sum(negatives), near = sum(near_count), known = sum(known_count);
+  const std::uint32_t standing = known - sum(drop_count) - sum(floor_count);
+  add(PixelClass::no_disparity, negative + near - known);
+  add(PixelClass::too_far, static_cast<std::uint32_t>(count) - near - negative);
+  add(PixelClass::drop_off, sum(drop_count));
+  add(PixelClass::floor, sum(floor_count));
+  add(PixelClass::ceiling, standing - sum(obstacle_count));
+  add(PixelClass::obstacle, sum(obstacle_count));
+}
+
+// The pixels of one class, side by side.
+void gather_class(PixelClass which, const std::int16_t* disparity, int begin, int count, const Work& w, Pixels& to) {
+  const D16 d;
+  const auto code = hn::Set(d, static_cast<std::int16_t>(which));
+  to.count = 0;
+  for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d)))
+    append(begin + i, hn::LoadU(d, disparity + i), hn::Eq(hn::Load(d, w.classes + i), code), to);
+}
+
+void write_classes(const Work& w, int count, PixelClass* to) {
+  for (int i = 0; i < count; ++i)
+    to[i] = static_cast<PixelClass>(w.classes[i]);
 }
 
 }  // namespace HWY_NAMESPACE
