@@ -37,12 +37,6 @@ HWY_INLINE VU16 narrowed(V32 low, V32 high) {
   return hn::ConcatEven(d, hn::BitCast(d, high), hn::BitCast(d, low));
 }
 
-// Table entries >= 0, of which the low 16 bits are wanted.
-HWY_INLINE VU16 looked_up(const std::int32_t* table, V16 entry) {
-  const D32 d;
-  return narrowed(hn::GatherIndex(d, table, low_half(entry)), hn::GatherIndex(d, table, high_half(entry)));
-}
-
 // scaled_product<16>(depth, whole * 2^16 + part), modulo 2^16.
 HWY_INLINE VU16 times_depth(VU16 depth, V16 whole, VU16 part) {
   const DU16 d;
@@ -82,7 +76,12 @@ class Plane16 {
   std::uint16_t last_row_, last_col_, stride_;
 };
 
+// Mostly they are those of the row before.
 void fill_direction(const RowDirection& a, int begin, int count, Direction16& to) {
+  if (to.of == a && to.begin == begin && to.count == count) return;
+  to.of = a;
+  to.begin = begin;
+  to.count = count;
   const D16 d;
   const DU16 du;
   const D32 d32;
@@ -95,15 +94,47 @@ void fill_direction(const RowDirection& a, int begin, int count, Direction16& to
   }
 }
 
-// The entry of the floor's own disparity plus `add` (Q16) in every column, not before `least`.
-void fill_entries(const RowLine& floor, std::int32_t add, std::int16_t least, int begin, int count,
-                  std::int16_t* to) {
+// Fills w.depth_pairs, or returns false: the tables are too long, or depth does not fall with the disparity.
+bool make_depth_pairs(const PruneModel& m, Work& w) {
   const D32 d;
-  const Half16 half;
-  const auto round = hn::Set(d, add + (1 << (kDisparityToQ16 - 1)));
-  for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d))) {
-    const auto entry = hn::ShiftRight<kDisparityToQ16>(hn::Add(value_at(floor, from(begin + i)), round));
-    hn::StoreU(hn::DemoteTo(half, hn::Max(entry, hn::Set(d, least))), half, to + i);
+  const std::int64_t half_row = m.floor.per_v / 2;
+  const std::int64_t last = static_cast<std::int64_t>(m.depth_mm.size()) - 1;
+  const std::int64_t near_step = table_entry(half_row);
+  const std::int64_t far_step = table_entry(-half_row);
+  const std::int64_t farthest = std::max<std::int64_t>(table_entry(m.min_disparity), 1);
+  // Beyond, both ends are the last entry.
+  const std::int64_t count = last + 1 - far_step;
+  if (last < 1 || half_row < 0 || count > kDepthPairs || near_step > kDepthPairs || farthest > kDepthPairs) return false;
+  for (std::int64_t i = 1; i < last; ++i) {
+    if (m.depth_mm[static_cast<std::size_t>(i)] < m.depth_mm[static_cast<std::size_t>(i + 1)]) return false;
+  }
+  w.depth_pair_count = static_cast<int>(count);
+  const auto most = hn::Set(d, static_cast<std::int32_t>(last));
+  const auto near = hn::Set(d, static_cast<std::int32_t>(near_step));
+  const auto far = hn::Set(d, static_cast<std::int32_t>(far_step));
+  const auto least = hn::Set(d, static_cast<std::int32_t>(farthest));
+  for (int i = 0; i < w.depth_pair_count; i += static_cast<int>(hn::Lanes(d))) {
+    const auto here = from(i);
+    const auto near_mm = hn::GatherIndex(d, m.depth_mm.data(), hn::Min(hn::Max(hn::Add(here, near), least), most));
+    const auto far_mm = hn::GatherIndex(d, m.depth_mm.data(), hn::Min(hn::Max(hn::Add(here, far), least), most));
+    hn::Store(hn::Or(near_mm, hn::ShiftLeft<16>(far_mm)), d, w.depth_pairs + i);
+  }
+  return true;
+}
+
+// Depth at the floor's own disparity plus `add` (Q16) in every column.
+void fill_floor_depth(const Frame& f, const RowLine& floor, std::int32_t add, int begin, int count,
+                      std::uint16_t* to) {
+  const DU16 d;
+  const D32 d32;
+  const int half = static_cast<int>(hn::Lanes(d32));
+  const auto round = hn::Set(d32, add + (1 << (kDisparityToQ16 - 1)));
+  const auto farthest = hn::Set(d32, static_cast<std::int32_t>(table_entry(f.model.min_disparity)));
+  for (int i = 0; i < count; i += 2 * half) {
+    const auto low = hn::ShiftRight<kDisparityToQ16>(hn::Add(value_at(floor, from(begin + i)), round));
+    const auto high = hn::ShiftRight<kDisparityToQ16>(hn::Add(value_at(floor, from(begin + i + half)), round));
+    hn::Store(narrowed(depth_at(f.model, hn::Max(low, farthest)), depth_at(f.model, hn::Max(high, farthest))), d,
+              to + i);
   }
 }
 
@@ -209,15 +240,15 @@ void bin_ground_narrow(const Frame& f, const RowTerms& t, PixelClass which, cons
                        const std::int16_t* disparity, int begin, int count, Pixels& longer, Work& w) {
   const D16 d;
   const DU16 du;
+  const D32 d32;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const NarrowTerms n = t.narrow;
   const CellDivider divider = f.divider;
   const Plane16 cells(f.grid.geometry, n, plane.stride);
-  const std::int32_t* depths = f.model.depth_mm.data();
   const auto code = hn::Set(d, static_cast<std::int16_t>(which));
   const auto row_whole = hn::Set(d, static_cast<std::int16_t>(t.forward.whole >> 16));
   const auto row_part = hn::Set(du, static_cast<std::uint16_t>(t.forward.whole & 0xFFFF));
-  const auto last_depth = hn::Set(d, n.last_depth);
+  const auto last_pair = hn::Set(d, static_cast<std::int16_t>(w.depth_pair_count - 1));
   const auto one = hn::Set(d, 1);
   Cells16& near_cells = w.near_cells;
   Cells16& far_cells = w.far_cells;
@@ -227,12 +258,13 @@ void bin_ground_narrow(const Frame& f, const RowTerms& t, PixelClass which, cons
     const auto is_ground = hn::Eq(hn::Load(d, w.classes + i), code);
     if (hn::AllFalse(d, is_ground)) continue;
     const auto here = hn::LoadU(d, disparity + i);
-    const auto near_floor = kStraight ? hn::Set(d, n.near_floor) : hn::Load(d, w.near_floor + i);
-    const auto far_floor = kStraight ? hn::Set(d, n.far_floor) : hn::Load(d, w.far_floor + i);
-    const auto near_entry = hn::Max(hn::SaturatedAdd(here, hn::Set(d, n.near_step)), near_floor);
-    const auto far_entry = hn::Max(hn::SaturatedAdd(here, hn::Set(d, n.far_step)), far_floor);
-    const auto near_depth = looked_up(depths, hn::Min(near_entry, last_depth));
-    const auto far_depth = looked_up(depths, hn::Min(far_entry, last_depth));
+    const auto entry = hn::Min(hn::Max(here, hn::Zero(d)), last_pair);
+    const auto low = hn::BitCast(du, hn::GatherIndex(d32, w.depth_pairs, low_half(entry)));
+    const auto high = hn::BitCast(du, hn::GatherIndex(d32, w.depth_pairs, high_half(entry)));
+    const auto near_floor = kStraight ? hn::Set(du, n.near_floor_mm) : hn::Load(du, w.near_floor + i);
+    const auto far_floor = kStraight ? hn::Set(du, n.far_floor_mm) : hn::Load(du, w.far_floor + i);
+    const auto near_depth = hn::Min(hn::ConcatEven(du, high, low), near_floor);
+    const auto far_depth = hn::Min(hn::ConcatOdd(du, high, low), far_floor);
     const auto forward_whole = kStraight ? row_whole : hn::Load(d, w.forward.whole + i);
     const auto forward_part = kStraight ? row_part : hn::Load(du, w.forward.part + i);
     const auto left_whole = hn::Load(d, w.left.whole + i);
@@ -263,26 +295,32 @@ void bin_ground_narrow(const Frame& f, const RowTerms& t, PixelClass which, cons
 }
 
 template <bool kStraight>
-void bin_narrow_piece(const Frame& f, const RowTerms& t, const std::int16_t* disparity, int begin, int count,
-                      Work& w) {
-  bin_obstacles_narrow<kStraight>(f, t, disparity, begin, count, w);
-  bin_ground_narrow<kStraight>(f, t, PixelClass::floor, f.grid.floor_count, disparity, begin, count, w.floor, w);
-  bin_ground_narrow<kStraight>(f, t, PixelClass::drop_off, f.grid.below_count, disparity, begin, count, w.below,
-                               w);
+void bin_narrow_piece(const Frame& f, const RowTerms& t, const ClassCounts& found, const std::int16_t* disparity,
+                      int begin, int count, Work& w) {
+  const NavGrid& grid = f.grid;
+  if (found.obstacles > 0) bin_obstacles_narrow<kStraight>(f, t, disparity, begin, count, w);
+  if (found.floor > 0) {
+    bin_ground_narrow<kStraight>(f, t, PixelClass::floor, grid.floor_count, disparity, begin, count, w.floor, w);
+    bin_ground(f, t, w.floor, grid.floor_count, w);
+  }
+  if (found.below > 0) {
+    bin_ground_narrow<kStraight>(f, t, PixelClass::drop_off, grid.below_count, disparity, begin, count, w.below, w);
+    bin_ground(f, t, w.below, grid.below_count, w);
+  }
 }
 
-void bin_narrow(const Frame& f, const RowTerms& t, const std::int16_t* disparity, int begin, int count, Work& w) {
+void bin_narrow(const Frame& f, const RowTerms& t, const ClassCounts& found, const std::int16_t* disparity,
+                int begin, int count, Work& w) {
+  if (found.obstacles + found.floor + found.below == 0) return;
   fill_direction(t.left, begin, count, w.left);
   if (t.narrow.straight) {
-    bin_narrow_piece<true>(f, t, disparity, begin, count, w);
-  } else {
-    fill_direction(t.forward, begin, count, w.forward);
-    fill_entries(t.floor, t.half_row, 1, begin, count, w.near_floor);
-    fill_entries(t.floor, -t.half_row, t.narrow.farthest, begin, count, w.far_floor);
-    bin_narrow_piece<false>(f, t, disparity, begin, count, w);
+    bin_narrow_piece<true>(f, t, found, disparity, begin, count, w);
+    return;
   }
-  bin_ground(f, t, w.floor, f.grid.floor_count, w);
-  bin_ground(f, t, w.below, f.grid.below_count, w);
+  fill_direction(t.forward, begin, count, w.forward);
+  fill_floor_depth(f, t.floor, t.half_row, begin, count, w.near_floor);
+  fill_floor_depth(f, t.floor, -t.half_row, begin, count, w.far_floor);
+  bin_narrow_piece<false>(f, t, found, disparity, begin, count, w);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -32,9 +32,10 @@ using M16 = hn::Mask<D16>;
 using V32 = hn::Vec<D32>;
 using M32 = hn::Mask<D32>;
 
-constexpr int kPiece = 256;                                          // pixels
+constexpr int kPiece = 1024;                                         // pixels
 constexpr int kRoom = kPiece + static_cast<int>(HWY_MAX_BYTES) / 2;  // a vector may hang over
-constexpr int kCellRoom = 4 * kPiece;
+constexpr int kCellRoom = 1024;
+constexpr int kDepthPairs = 8 << 10;  // entries; 512 px and more are seldom searched
 
 // Pixels of one class: column << 16 | disparity.
 struct Pixels {
@@ -46,6 +47,8 @@ struct Pixels {
 struct Direction16 {
   alignas(64) std::int16_t whole[kRoom];
   alignas(64) std::uint16_t part[kRoom];
+  RowDirection of;  // what the arrays were made from, and for which columns
+  int begin = -1, count = 0;
 };
 
 // Cells of a map of less than 2^16, and where a run of equal ones ends.
@@ -62,14 +65,22 @@ struct Cells {
   int count = 0;
 };
 
+// Pixels of a piece that go into the map.
+struct ClassCounts {
+  std::uint32_t obstacles, floor, below;
+};
+
 struct Work {
   Pixels obstacles, floor, below;
   alignas(64) std::int16_t disparity[kRoom] = {};  // a piece shorter than a whole number of vectors
   alignas(64) std::int16_t nothing[kRoom], drop[kRoom], floor_limit[kRoom], ceiling_low[kRoom], ceiling_high[kRoom];
   alignas(64) std::int16_t classes[kRoom];
   Direction16 forward, left;
-  alignas(64) std::int16_t near_floor[kRoom], far_floor[kRoom];
+  alignas(64) std::uint16_t near_floor[kRoom], far_floor[kRoom];
   Cells16 near_cells, far_cells;
+  // By disparity: depth of a strip's near end, and of its far end << 16, where the floor's own disparity is not larger.
+  alignas(64) std::int32_t depth_pairs[kDepthPairs + static_cast<int>(HWY_MAX_BYTES) / 4];
+  int depth_pair_count = 0;
   alignas(64) std::int32_t heights[kRoom] = {};
   alignas(64) std::int64_t height_sums[kRoom];
   Cells obstacle_cells, first_cells, further_cells;

@@ -35,17 +35,14 @@ void project_row(const Frame& f, const RowTerms& t, const std::int16_t* disparit
       std::fill(w.disparity + count, w.disparity + whole, std::int16_t{0});
       from = w.disparity;
     }
-    if (t.level) {
-      sort_pixels<true>(t, from, whole, counts, w);
-    } else {
-      fill_limits(f.model, t, begin, whole, w);
-      sort_pixels<false>(t, from, whole, counts, w);
-    }
+    if (!t.level) fill_limits(f.model, t, begin, whole, w);
+    const ClassCounts found =
+        t.level ? sort_pixels<true>(t, from, whole, counts, w) : sort_pixels<false>(t, from, whole, counts, w);
     // What filled up the last vector was too far.
     counts.by_class[static_cast<int>(PixelClass::too_far)] -= static_cast<std::uint32_t>(whole - count);
     if (classes != nullptr) write_classes(w, count, classes + begin);
     if (t.narrow.fits && f.narrow) {
-      bin_narrow(f, t, from, begin, whole, w);
+      bin_narrow(f, t, found, from, begin, whole, w);
       continue;
     }
     gather_class(PixelClass::obstacle, from, begin, whole, w, w.obstacles);
@@ -73,9 +70,13 @@ bool cells_fit(const NavGrid& grid) {
 void project_rows(const PruneModel& model, ImageView<const std::int16_t> disparity, Rows rows, const NavGrid& grid,
                   PixelCounts& counts, ImageView<PixelClass> classes, std::span<std::byte> scratch) {
   const float cells_per_mm = 1.0F / static_cast<float>(grid.geometry.cell_mm);
-  const Frame frame{model, grid, cells_per_mm, 0.5F * cells_per_mm - 0.5F, cells_fit(grid),
-                    make_cell_divider(grid.geometry.cell_mm)};
   Work work;
+  const Frame frame{model,
+                    grid,
+                    cells_per_mm,
+                    0.5F * cells_per_mm - 0.5F,
+                    cells_fit(grid) && make_depth_pairs(model, work),
+                    make_cell_divider(grid.geometry.cell_mm)};
   RowTerms terms;
   const bool plain = planes_fit(grid);
   for (int v = rows.begin; v < rows.end; ++v) {

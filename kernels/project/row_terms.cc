@@ -53,15 +53,14 @@ ClassLimits limits_of_row(const PruneModel& m, int v) {
   return limits;
 }
 
-// The tables' entry for a disparity.
-std::int64_t entry_of(std::int64_t disparity_q16) {
-  return (disparity_q16 + (1 << (kDisparityToQ16 - 1))) >> kDisparityToQ16;
+std::int64_t depth_at(const PruneModel& m, std::int64_t entry) {
+  const auto last = static_cast<std::int64_t>(m.depth_mm.size()) - 1;
+  return m.depth_mm[static_cast<std::size_t>(std::clamp<std::int64_t>(entry, 1, last))];
 }
 
 // The largest depth that a pixel kept can have.
 std::int64_t largest_depth(const PruneModel& m) {
-  const auto last = static_cast<std::int64_t>(m.depth_mm.size()) - 1;
-  return m.depth_mm[static_cast<std::size_t>(std::clamp<std::int64_t>(entry_of(m.min_disparity), 1, last))];
+  return depth_at(m, table_entry(m.min_disparity));
 }
 
 bool row_direction(const Affine& a, int v, int width, std::int64_t depth, std::int64_t mount, RowDirection& out) {
@@ -92,7 +91,7 @@ Reach reach_of(const Affine& a, int v, int width, std::int64_t depth, std::int64
 
 NarrowTerms narrow_terms(const PruneModel& m, const GridGeometry& g, int v, int width, const RowTerms& t) {
   constexpr std::int64_t kMostDepth = 1 << 15;
-  constexpr std::int64_t kMost = 1 << 14;  // cells, table entries
+  constexpr std::int64_t kMost = 1 << 14;  // cells
   const CellDivider divider = make_cell_divider(g.cell_mm);
   NarrowTerms n;
   const std::int64_t depth = largest_depth(m);
@@ -105,11 +104,8 @@ NarrowTerms narrow_terms(const PruneModel& m, const GridGeometry& g, int v, int 
   };
   const std::int64_t rows_before = cells_before(ahead);
   const std::int64_t cols_before = cells_before(across);
-  const std::int64_t near_step = entry_of(t.half_row);
-  const std::int64_t far_step = entry_of(-std::int64_t{t.half_row});
   n.fits = depth < kMostDepth && ahead.most + rows_before * g.cell_mm <= divider.limit &&
-           across.most + cols_before * g.cell_mm <= divider.limit && std::max(rows_before, cols_before) < kMost &&
-           near_step < kMost && far_step > -kMost;
+           across.most + cols_before * g.cell_mm <= divider.limit && std::max(rows_before, cols_before) < kMost;
   if (!n.fits) return n;
   n.straight = t.level && t.forward.whole_per_u == 0 && t.forward.part_per_u == 0;
   // Sums that may be negative, as the mount's, are right modulo 2^16.
@@ -118,11 +114,12 @@ NarrowTerms narrow_terms(const PruneModel& m, const GridGeometry& g, int v, int 
   n.first_row = static_cast<std::int16_t>(rows_before);
   n.first_col = static_cast<std::int16_t>(cols_before);
   n.last_depth = saturated(static_cast<std::int64_t>(m.depth_mm.size()) - 1);
-  n.near_step = static_cast<std::int16_t>(near_step);
-  n.far_step = static_cast<std::int16_t>(far_step);
-  n.farthest = saturated(std::max<std::int64_t>(entry_of(t.min_disparity), 1));
-  n.near_floor = saturated(std::max<std::int64_t>(entry_of(std::int64_t{t.floor.at_0} + t.half_row), 1));
-  n.far_floor = std::max(saturated(entry_of(std::int64_t{t.floor.at_0} - t.half_row)), n.farthest);
+  const std::int64_t farthest = std::max<std::int64_t>(table_entry(t.min_disparity), 1);
+  const auto depth_of = [&](std::int64_t floor) {
+    return static_cast<std::uint16_t>(depth_at(m, std::max(table_entry(floor), farthest)));
+  };
+  n.near_floor_mm = depth_of(std::int64_t{t.floor.at_0} + t.half_row);
+  n.far_floor_mm = depth_of(std::int64_t{t.floor.at_0} - t.half_row);
   return n;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "kernels/base/nav_grid.h"
+#include "kernels/base/units.h"
 #include "kernels/prune/prune.h"
 #include "kernels/prune/row_line.h"
 
@@ -26,6 +27,7 @@ struct RowDirection {
   std::int32_t whole_per_u = 0;
   std::uint32_t part = 0;
   std::uint32_t part_per_u = 0;
+  bool operator==(const RowDirection&) const = default;
 };
 
 // floor(x / cell) = x * multiplier >> (16 + shift) for 0 <= x <= limit.
@@ -46,12 +48,9 @@ struct NarrowTerms {
   std::int16_t first_row = 0;       // the map's, in cells from there
   std::int16_t first_col = 0;
   std::int16_t last_depth = 0;      // last entry of the tables that a disparity reaches
-  // Table entry of a strip's near and far end: the floor's own (straight rows), what a disparity adds to itself.
-  std::int16_t near_floor = 0;
-  std::int16_t far_floor = 0;
-  std::int16_t near_step = 0;
-  std::int16_t far_step = 0;
-  std::int16_t farthest = 0;        // no end is farther
+  // Depth of a strip's near and far end at the floor's own disparity, in straight rows.
+  std::uint16_t near_floor_mm = 0;
+  std::uint16_t far_floor_mm = 0;
 };
 
 struct RowTerms {
@@ -68,6 +67,11 @@ struct RowTerms {
 
 // Coordinates within which a millimetre and its cell are exact in float arithmetic.
 inline constexpr std::int64_t kProjectMaxMm = 1 << 19;
+
+// The tables' entry for a disparity.
+constexpr std::int64_t table_entry(std::int64_t disparity_q16) {
+  return (disparity_q16 + (1 << (kDisparityToQ16 - 1))) >> kDisparityToQ16;
+}
 
 // False: the model, the map or the row has numbers that do not fit, and the row is the reference's.
 bool make_row_terms(const PruneModel& model, const GridGeometry& grid, int v, int width, RowTerms& terms);

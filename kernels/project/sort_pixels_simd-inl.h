@@ -64,7 +64,7 @@ HWY_INLINE std::int32_t sum_of_lanes(V16 lanes) {
 
 // Classes of `count` pixels, a whole number of vectors, at `disparity`, into w.classes.
 template <bool kLevel>
-void sort_pixels(const RowTerms& t, const std::int16_t* disparity, int count, PixelCounts& counts, Work& w) {
+ClassCounts sort_pixels(const RowTerms& t, const std::int16_t* disparity, int count, PixelCounts& counts, Work& w) {
   const D16 d;
   const auto limit = [&](std::int16_t of_row, const std::int16_t* of_column) {
     return kLevel ? hn::Set(d, of_row) : hn::Load(d, of_column);
@@ -107,13 +107,14 @@ void sort_pixels(const RowTerms& t, const std::int16_t* disparity, int count, Pi
   const auto sum = [&](V16 lanes) { return static_cast<std::uint32_t>(-sum_of_lanes(lanes)); };
   const auto add = [&](PixelClass c, std::uint32_t n) { counts.by_class[static_cast<int>(c)] += n; };
   const std::uint32_t negative = sum(negatives), near = sum(near_count), known = sum(known_count);
-  const std::uint32_t standing = known - sum(drop_count) - sum(floor_count);
+  const ClassCounts in_map{sum(obstacle_count), sum(floor_count), sum(drop_count)};
   add(PixelClass::no_disparity, negative + near - known);
   add(PixelClass::too_far, static_cast<std::uint32_t>(count) - near - negative);
-  add(PixelClass::drop_off, sum(drop_count));
-  add(PixelClass::floor, sum(floor_count));
-  add(PixelClass::ceiling, standing - sum(obstacle_count));
-  add(PixelClass::obstacle, sum(obstacle_count));
+  add(PixelClass::drop_off, in_map.below);
+  add(PixelClass::floor, in_map.floor);
+  add(PixelClass::ceiling, known - in_map.below - in_map.floor - in_map.obstacles);
+  add(PixelClass::obstacle, in_map.obstacles);
+  return in_map;
 }
 
 // The pixels of one class, side by side.
