@@ -45,8 +45,9 @@ HWY_INLINE VU16 times_depth(VU16 depth, V16 whole, VU16 part) {
 }
 
 HWY_INLINE V16 cells_of(const CellDivider& divider, VU16 mm) {
-  const auto quotient = hn::MulHigh(mm, hn::Set(DU16(), divider.multiplier));
-  return hn::BitCast(D16(), hn::ShiftRightSame(quotient, divider.shift));
+  const DU16 d;
+  const auto scaled = hn::MulHigh(mm, hn::Set(d, divider.multiplier));
+  return hn::BitCast(D16(), hn::MulHigh(scaled, hn::Set(d, divider.shift)));
 }
 
 // A map's plane seen from the 16-bit coordinates.
@@ -218,6 +219,7 @@ void bin_obstacles_narrow(const Frame& f, const RowTerms& t, const std::int16_t*
   if (cells.count == 0) return;
   const int runs = find_runs(cells);
   std::int64_t sum = 0;
+#pragma GCC unroll 8
   for (int i = 0; i < cells.count; ++i)
     w.height_sums[i] = sum += w.heights[i];
   std::int32_t before = -1;

@@ -60,8 +60,8 @@ struct Cells16 {
 
 // Cells to be counted in one plane of the map, in order.
 struct Cells {
-  alignas(64) std::int32_t index[kCellRoom + kRoom] = {};
-  alignas(64) std::int32_t ends[kCellRoom + kRoom] = {};
+  alignas(64) std::int32_t index[kCellRoom + kRoom];
+  alignas(64) std::int32_t ends[kCellRoom + kRoom];
   int count = 0;
 };
 
@@ -81,7 +81,7 @@ struct Work {
   // By disparity: depth of a strip's near end, and of its far end << 16, where the floor's own disparity is not larger.
   alignas(64) std::int32_t depth_pairs[kDepthPairs + static_cast<int>(HWY_MAX_BYTES) / 4];
   int depth_pair_count = 0;
-  alignas(64) std::int32_t heights[kRoom] = {};
+  alignas(64) std::int32_t heights[kRoom];
   alignas(64) std::int64_t height_sums[kRoom];
   Cells obstacle_cells, first_cells, further_cells;
 };

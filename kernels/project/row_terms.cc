@@ -137,16 +137,17 @@ bool grid_fits(const GridGeometry& g) {
 
 }  // namespace
 
-// The multiplier 2^(16 + shift) / cell, rounded up, has its highest bit set, so that the quotient is right at least up to
-// 2^15: the excess of multiplier * cell over 2^(16 + shift) is below cell <= 2^(shift + 1).
+// The multiplier 2^k / cell, rounded up, has its highest bit set, so that the quotient is right at least up to 2^15: what
+// multiplier * cell is more than 2^k is below cell <= 2^(k - 15).
 CellDivider make_cell_divider(int cell_mm) {
   CellDivider divider;
-  if (cell_mm < 2 || cell_mm > 1 << 15) return divider;
-  divider.shift = std::bit_width(static_cast<unsigned>(cell_mm - 1)) - 1;
-  const std::int64_t scale = std::int64_t{1} << (16 + divider.shift);
+  if (cell_mm < 3 || cell_mm > 1 << 15) return divider;
+  const int k = 15 + std::bit_width(static_cast<unsigned>(cell_mm - 1));  // > 16
+  const std::int64_t scale = std::int64_t{1} << k;
   const std::int64_t multiplier = (scale + cell_mm - 1) / cell_mm;
   const std::int64_t excess = multiplier * cell_mm - scale;
   divider.multiplier = static_cast<std::uint16_t>(multiplier);
+  divider.shift = static_cast<std::uint16_t>(1 << (32 - k));
   divider.limit = excess == 0 ? 0xFFFF : std::min<std::int64_t>((scale - 1) / excess, 0xFFFF);
   return divider;
 }

@@ -30,10 +30,10 @@ struct RowDirection {
   bool operator==(const RowDirection&) const = default;
 };
 
-// floor(x / cell) = x * multiplier >> (16 + shift) for 0 <= x <= limit.
+// floor(x / cell) = ((x * multiplier >> 16) * shift) >> 16 for 0 <= x <= limit.
 struct CellDivider {
   std::uint16_t multiplier = 0;
-  int shift = 0;
+  std::uint16_t shift = 0;  // a power of two: a product's upper half is quicker than a shift by what is not known
   std::int64_t limit = -1;
 };
 CellDivider make_cell_divider(int cell_mm);
