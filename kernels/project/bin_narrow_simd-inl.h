@@ -66,8 +66,8 @@ class Plane16 {
     const D16 d_signed;
     const auto row = hn::BitCast(d, hn::Sub(row_there, hn::Set(d_signed, first_row_)));
     const auto col = hn::BitCast(d, hn::Sub(col_there, hn::Set(d_signed, first_col_)));
-    const auto inside = hn::And(hn::Eq(hn::Min(row, hn::Set(d, last_row_)), row),
-                                hn::Eq(hn::Min(col, hn::Set(d, last_col_)), col));
+    const auto inside =
+        hn::And(hn::Eq(hn::Min(row, hn::Set(d, last_row_)), row), hn::Eq(hn::Min(col, hn::Set(d, last_col_)), col));
     const auto cell = hn::Add(hn::Mul(row, hn::Set(d, stride_)), col);
     return hn::IfThenElse(hn::And(inside, hn::RebindMask(d, which)), cell, hn::Set(d, kOutside16));
   }
@@ -105,7 +105,8 @@ bool make_depth_pairs(const PruneModel& m, Work& w) {
   const std::int64_t farthest = std::max<std::int64_t>(table_entry(m.min_disparity), 1);
   // Beyond, both ends are the last entry.
   const std::int64_t count = last + 1 - far_step;
-  if (last < 1 || half_row < 0 || count > kDepthPairs || near_step > kDepthPairs || farthest > kDepthPairs) return false;
+  if (last < 1 || half_row < 0 || count > kDepthPairs || near_step > kDepthPairs || farthest > kDepthPairs)
+    return false;
   for (std::int64_t i = 1; i < last; ++i) {
     if (m.depth_mm[static_cast<std::size_t>(i)] < m.depth_mm[static_cast<std::size_t>(i + 1)]) return false;
   }
@@ -273,8 +274,7 @@ void bin_ground_narrow(const Frame& f, const RowTerms& t, PixelClass which, cons
     const auto left_part = hn::Load(du, w.left.part + i);
     const auto ahead = hn::Set(du, n.ahead_mm);
     const auto across = hn::Set(du, n.across_mm);
-    const auto near_row =
-        cells_of(divider, hn::Add(times_depth(near_depth, forward_whole, forward_part), ahead));
+    const auto near_row = cells_of(divider, hn::Add(times_depth(near_depth, forward_whole, forward_part), ahead));
     const auto far_row = cells_of(divider, hn::Add(times_depth(far_depth, forward_whole, forward_part), ahead));
     const auto near_col = cells_of(divider, hn::Sub(across, times_depth(near_depth, left_whole, left_part)));
     const auto far_col = cells_of(divider, hn::Sub(across, times_depth(far_depth, left_whole, left_part)));

@@ -42,12 +42,12 @@ CellDivider make_cell_divider(int cell_mm);
 // left, that none is negative.
 struct NarrowTerms {
   bool fits = false;
-  bool straight = false;            // level, and `forward` is the same in the whole row
-  std::uint16_t ahead_mm = 0;       // what the mount adds
-  std::uint16_t across_mm = 0;      // what the distance to the left is taken from
-  std::int16_t first_row = 0;       // the map's, in cells from there
+  bool straight = false;        // level, and `forward` is the same in the whole row
+  std::uint16_t ahead_mm = 0;   // what the mount adds
+  std::uint16_t across_mm = 0;  // what the distance to the left is taken from
+  std::int16_t first_row = 0;   // the map's, in cells from there
   std::int16_t first_col = 0;
-  std::int16_t last_depth = 0;      // last entry of the tables that a disparity reaches
+  std::int16_t last_depth = 0;  // last entry of the tables that a disparity reaches
   // Depth of a strip's near and far end at the floor's own disparity, in straight rows.
   std::uint16_t near_floor_mm = 0;
   std::uint16_t far_floor_mm = 0;

@@ -58,7 +58,8 @@ void count_reasons(const D16 d, V16 disparity, std::size_t negative, PixelCounts
 HWY_INLINE std::int32_t sum_of_lanes(V16 lanes) {
   const D32 d;
   const Half16 half;
-  const auto halves = hn::Add(hn::PromoteTo(d, hn::LowerHalf(half, lanes)), hn::PromoteTo(d, hn::UpperHalf(half, lanes)));
+  const auto halves =
+      hn::Add(hn::PromoteTo(d, hn::LowerHalf(half, lanes)), hn::PromoteTo(d, hn::UpperHalf(half, lanes)));
   return hn::GetLane(hn::SumOfLanes(d, halves));
 }
 
@@ -118,7 +119,8 @@ ClassCounts sort_pixels(const RowTerms& t, const std::int16_t* disparity, int co
 }
 
 // The pixels of one class, side by side.
-void gather_class(PixelClass which, const std::int16_t* disparity, int begin, int count, const Work& w, Pixels& to) {
+void gather_class(PixelClass which, const std::int16_t* disparity, int begin, int count, const Work& w,
+                  Pixels& to) {
   const D16 d;
   const auto code = hn::Set(d, static_cast<std::int16_t>(which));
   to.count = 0;

@@ -2,7 +2,6 @@
 #include "app/core/arena.h"
 #include "kernels/block/block.h"
 #include "perf/bench_image.h"
-#include "perf/bench_isa.h"
 
 namespace lakshya {
 namespace {
@@ -33,10 +32,9 @@ void block_reference(benchmark::State& state) {
   block<Descriptor, kMatch>(state, static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
 }
 
-// Argument: instruction set. The pipeline's defaults.
+// The pipeline's defaults.
 template <class Descriptor, auto kMatch>
 void block_simd(benchmark::State& state) {
-  bench::choose_isa(state);
   block<Descriptor, kMatch>(state, 64, 5);
 }
 
@@ -45,14 +43,9 @@ void sizes(benchmark::internal::Benchmark* b) {
 }
 BENCHMARK(block_reference<CensusCode, census_block_ref>)->Name("census_block_reference")->Apply(sizes);
 BENCHMARK(block_reference<std::uint8_t, sad_block_ref>)->Name("sad_block_reference")->Apply(sizes);
-BENCHMARK(block_simd<CensusCode, census_block_simd>)
-    ->Name("census_block_simd")
-    ->Apply(bench::each_isa)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(block_simd<std::uint8_t, sad_block_simd>)
-    ->Name("sad_block_simd")
-    ->Apply(bench::each_isa)
-    ->Unit(benchmark::kMillisecond);
+
+const bool kRegistered = bench::register_each_isa("census_block_simd", block_simd<CensusCode, census_block_simd>) &&
+                         bench::register_each_isa("sad_block_simd", block_simd<std::uint8_t, sad_block_simd>);
 
 }  // namespace
 }  // namespace lakshya

@@ -1,6 +1,5 @@
 #include "kernels/support/support.h"
 #include "perf/bench_image.h"
-#include "perf/bench_isa.h"
 
 namespace lakshya {
 namespace {
@@ -26,7 +25,6 @@ template <auto kSupport, auto kDisparity>
 void support(benchmark::State& state) {
   const Image<std::int16_t> disparity = kDisparity();
   Image<std::int16_t> out(bench::kWidth, bench::kHeight);
-  if (kSupport == support_simd) bench::choose_isa(state);
   for (auto _ : state) {
     bench::require_ok(kSupport(disparity.view(), {}, {0, bench::kHeight}, out.view()));
     benchmark::DoNotOptimize(out.view().data);
@@ -35,14 +33,9 @@ void support(benchmark::State& state) {
 }
 BENCHMARK(support<support_ref, noise>)->Name("support_reference_noise")->Unit(benchmark::kMillisecond);
 BENCHMARK(support<support_ref, surface>)->Name("support_reference_surface")->Unit(benchmark::kMillisecond);
-BENCHMARK(support<support_simd, noise>)
-    ->Name("support_simd_noise")
-    ->Apply(bench::each_isa)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(support<support_simd, surface>)
-    ->Name("support_simd_surface")
-    ->Apply(bench::each_isa)
-    ->Unit(benchmark::kMillisecond);
+
+const bool kRegistered = bench::register_each_isa("support_simd_noise", support<support_simd, noise>) &&
+                         bench::register_each_isa("support_simd_surface", support<support_simd, surface>);
 
 }  // namespace
 }  // namespace lakshya
