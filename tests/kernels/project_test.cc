@@ -184,13 +184,21 @@ TEST(ProjectSimd, EqualsTheReference) {
   test::for_each_isa([&](const char* isa) {
     PixelCounts seen;
     std::uint64_t binned = 0;
+    int straight = 0;
+    int narrow = 0;
+    int wide = 0;
     for (int width : test::awkward_widths()) {
-      if (width == 203) width = 700;  // more than a piece of a row
+      if (width == 203) width = 1100;  // more than a piece of a row
       for (int trial = 0; trial < 8; ++trial) {
         constexpr int kRows = 7;
         const Trial t = any_trial(random, width);
         const Model mount(t.camera);
         const PruneModel m = shift_floor(mount.prune, static_cast<std::int64_t>(random() % 200'000) - 100'000);
+        for (int v = 0; v < kRows; ++v) {
+          RowTerms terms;
+          if (!make_row_terms(m, t.grid, v, width, terms)) continue;
+          ++(!terms.narrow.fits ? wide : terms.narrow.straight ? straight : narrow);
+        }
         PaddedImage<std::int16_t> image(width, kRows);
         fill_scene(image.view(), m, random);
         const int padding = trial % 3 == 0 ? 3 : 0;
@@ -219,7 +227,28 @@ TEST(ProjectSimd, EqualsTheReference) {
     for (const std::uint32_t n : seen.by_class)
       EXPECT_GT(n, 300U);
     EXPECT_GT(binned, 1000U);
+    // Rows of every kind that project_simd.cc tells apart.
+    EXPECT_GT(straight, 50);
+    EXPECT_GT(narrow, 50);
+    EXPECT_GT(wide, 50);
   });
+}
+
+TEST(CellDivider, IsExactUpToItsLimit) {
+  std::vector<int> sides = {1000, 1023, 1024, 1025, 2621, 4096, 9999, 16'383, 16'385, 32'767, 32'768};
+  for (int side = 3; side < 520; ++side)
+    sides.push_back(side);
+  for (const int side : sides) {
+    const CellDivider divider = make_cell_divider(side);
+    ASSERT_GE(divider.limit, 1 << 15) << side;
+    ASSERT_LE(divider.limit, 0xFFFF) << side;
+    for (std::uint32_t mm = 0; mm <= static_cast<std::uint32_t>(divider.limit); ++mm) {
+      const std::uint32_t scaled = mm * divider.multiplier >> 16;
+      ASSERT_EQ(scaled * divider.shift >> 16, mm / static_cast<std::uint32_t>(side)) << side << " at " << mm;
+    }
+  }
+  for (const int side : {1, 2, 32'769, 1'000'000})
+    EXPECT_LT(make_cell_divider(side).limit, 0) << side;
 }
 
 // Whatever the sides of a cell, none of a millimetre may be counted in its neighbour.
