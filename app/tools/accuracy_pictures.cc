@@ -49,13 +49,17 @@ PlotAxes axes_for(const std::vector<PairResults>& results, const Box& plot) {
 void draw_axes(Canvas& sheet, const PlotAxes& axes) {
   const Box& plot = axes.plot;
   const double x_step = round_step(100 * axes.most_bad2 / 10);
-  for (double x = 0; x <= 100 * axes.most_bad2; x += x_step) {
+  const int x_lines = static_cast<int>(100 * axes.most_bad2 / x_step);
+  for (int i = 0; i <= x_lines; ++i) {
+    const double x = i * x_step;
     const Point p = axes.at(axes.least_density, x / 100);
     sheet.fill({static_cast<int>(p.x), plot.y, 1, plot.height}, kRule);
     sheet.text({p.x, plot.bottom() + 18.0}, decimal(x, x_step < 1 ? 1 : 0), kSmallText, kInk, Align::center);
   }
   const double y_step = round_step(100 * (1 - axes.least_density) / 12);
-  for (double y = 100 * axes.least_density; y <= 100.001; y += y_step) {
+  const int y_lines = static_cast<int>((100.001 - 100 * axes.least_density) / y_step);
+  for (int i = 0; i <= y_lines; ++i) {
+    const double y = 100 * axes.least_density + i * y_step;
     const Point p = axes.at(y / 100, 0);
     sheet.fill({plot.x, static_cast<int>(p.y), plot.width, 1}, kRule);
     sheet.text({plot.x - 8.0, p.y + kSmallText / 2}, decimal(y, 0), kSmallText, kInk, Align::right);
@@ -107,9 +111,10 @@ Image<Rgb8> error_image(const Evaluation& e, const Image<float>& truth) {
 
 Image<Rgb8> truth_image(const Image<float>& truth) {
   float largest = 1;
-  for (int v = 0; v < truth.height(); ++v)
+  for (int v = 0; v < truth.height(); ++v) {
     for (int u = 0; u < truth.width(); ++u)
       largest = std::max(largest, truth.view().at(u, v));
+  }
   Image<Rgb8> image(truth.width(), truth.height());
   for (int v = 0; v < truth.height(); ++v) {
     for (int u = 0; u < truth.width(); ++u) {
@@ -172,6 +177,7 @@ Image<Rgb8> error_picture(const std::string& title, const GroundTruthPair& pair,
   Canvas sheet(kColumns * (kWidth + kGap) + kGap, kTop + rows * (height + kCaption + kGap), kPaper);
   sheet.text({kGap, 36}, title, kTitleText, kInk);
   std::vector<LegendItem> legend;
+  legend.reserve(std::size(kBands));
   for (const Band& band : kBands)
     legend.push_back(filled_item(band.text, band.color));
   draw_legend(sheet, {kGap, 50}, kColumns * (kWidth + kGap), legend);
