@@ -82,7 +82,7 @@ void support_vector(const SupportWindow& w, std::int16_t* out) {
 // pixels without a disparity.
 void support_border(const ImageView<const std::int16_t>& disparity, int u, int count, const SupportParams& p, int v,
                     SupportWindow w, std::int16_t* out) {
-  constexpr int kStride = kMaxSupportLanes + 2 * kMaxSupportRadius;
+  constexpr std::ptrdiff_t kStride = kMaxSupportLanes + 2 * kMaxSupportRadius;
   std::int16_t rows[(2 * kMaxSupportRadius + 1) * kStride];
   std::int16_t too_few[kMaxSupportLanes] = {};
   std::int16_t result[kMaxSupportLanes];
