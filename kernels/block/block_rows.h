@@ -26,8 +26,9 @@ struct ReversedRow {
   int of_column(int x) const { return valid_end - 1 - x; }
   int column_of(int j) const { return valid_end - 1 - first - j; }
   bool inside(int j) const { return j >= inside_begin && j < inside_end; }
-  // Some candidate of column x is outside the right image.
-  bool border(int x) const { return of_column(x) < inside_begin || of_column(x) + disparities > inside_end; }
+  // Columns whose candidates are all in the right image, if there are any: they lie together.
+  int whole_begin() const { return valid_end - 1 - inside_end + disparities; }
+  int whole_end() const { return valid_end - inside_begin; }
 
   int valid_end;
   int disparities;
@@ -39,14 +40,14 @@ struct ReversedRow {
 
 struct SadRows {
   struct Prepared {
-    std::span<std::uint32_t> left;
-    std::span<std::int16_t> right;
+    std::span<std::uint32_t> left;  // four times the same edge
+    std::span<std::uint8_t> right;
   };
   Prepared enters;
   Prepared leaves;
-  std::span<std::int16_t> zero;
-  std::span<std::int16_t> inside;   // all bits, or none
-  std::span<std::int16_t> outside;  // the outside cost, or 0
+  std::span<std::uint8_t> zero;
+  std::span<std::uint8_t> inside;   // all bits, or none
+  std::span<std::uint8_t> outside;  // the outside cost, or 0
   const std::uint32_t* zero32() const { return reinterpret_cast<const std::uint32_t*>(zero.data()); }
 
   static SadRows lay_out(int width, int disparities, ScratchLayout& scratch) {
@@ -55,11 +56,11 @@ struct SadRows {
     SadRows r;
     for (Prepared* p : {&r.enters, &r.leaves}) {
       p->left = scratch.take<std::uint32_t>(columns);
-      p->right = scratch.take<std::int16_t>(elements);
+      p->right = scratch.take<std::uint8_t>(elements);
     }
-    r.zero = scratch.take<std::int16_t>(2 * elements);  // also `columns` zeros of 32 bits
-    r.inside = scratch.take<std::int16_t>(elements);
-    r.outside = scratch.take<std::int16_t>(elements);
+    r.zero = scratch.take<std::uint8_t>(4 * elements);  // also `columns` zeros of 32 bits
+    r.inside = scratch.take<std::uint8_t>(elements);
+    r.outside = scratch.take<std::uint8_t>(elements);
     return r;
   }
 };

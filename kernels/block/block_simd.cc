@@ -17,6 +17,7 @@
 #include "kernels/block/block_rows.h"
 #include "kernels/hamming/hamming_simd-inl.h"
 #include "kernels/sad/sad_simd-inl.h"
+#include "kernels/select/select_finish_simd-inl.h"
 #include "kernels/select/select_simd-inl.h"
 
 #ifndef LAKSHYA_BLOCK_SIMD
@@ -27,7 +28,6 @@ namespace lakshya {
 struct BlockSimdRows {
   std::span<std::int16_t> columns;  // costs of the window's rows added up, per column
   std::span<std::int16_t> zero;     // a column of no rows
-  std::span<std::int16_t> before;   // sums of the pixel before the first valid one
   SelectRows select;
 
   static BlockSimdRows lay_out(int width, int disparities, ScratchLayout& scratch) {
@@ -36,12 +36,12 @@ struct BlockSimdRows {
     BlockSimdRows r;
     r.columns = scratch.take<std::int16_t>(columns * candidates);
     r.zero = scratch.take<std::int16_t>(candidates);
-    r.before = scratch.take<std::int16_t>(candidates);
-    r.select.sums = scratch.take<std::int16_t>(static_cast<std::size_t>(sum_slots(disparities)) *
-                                               static_cast<std::size_t>(sum_stride(disparities, kMaxSumLanes)));
-    r.select.best = scratch.take<std::int16_t>(columns);
-    r.select.fraction = scratch.take<std::int16_t>(columns);
-    r.select.right = scratch.take<std::int16_t>(columns + kMaxSumLanes + 2);
+    r.select.sums = scratch.take<std::int16_t>(kMaxSumLanes +
+                                               static_cast<std::size_t>(sum_slots(disparities)) *
+                                                   static_cast<std::size_t>(sum_stride(disparities, kMaxSumLanes)));
+    r.select.best = scratch.take<std::int16_t>(columns + kMaxSumLanes);
+    r.select.near = scratch.take<std::int16_t>(kNearSums * (columns + kMaxSumLanes));
+    r.select.right = scratch.take<std::int32_t>(columns + kMaxSumLanes + 2);
     return r;
   }
 };
@@ -54,6 +54,9 @@ namespace lakshya {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// What a column's costs are added to.
+enum class Enters { nothing, border, whole };
+
 // Delta: the costs, of what enters minus what leaves.
 // kDisparities: their number, if it is a usual one, for loops of a constant length; or 0.
 template <class D, class Delta, class Traits, int kDisparities>
@@ -64,7 +67,8 @@ class Band {
         range_(call.params.range),
         rows_(rows),
         delta_(delta),
-        select_(range_, call.params.select, rows.select) {
+        select_(range_, call.params.select, rows.select),
+        finish_(range_, call.params.select, rows.select) {
     std::fill(rows.columns.begin(), rows.columns.end(), std::int16_t{0});
     std::fill(rows.zero.begin(), rows.zero.end(), std::int16_t{0});
     std::fill(rows.select.sums.begin(), rows.select.sums.end(), kSumPadding);
@@ -89,172 +93,190 @@ class Band {
  private:
   using V = hn::Vec<D>;
 
+  // Pixels side by side whose windows change alike.
+  struct Run {
+    int x;                       // the column that enters the first one's window
+    int count;                   // pixels
+    const std::int16_t* before;  // sums of the pixel before the first one
+    const std::int16_t* leaves;  // the column that leaves the first one's window
+    std::ptrdiff_t leaves_step;
+    std::int16_t* sums;   // of the first
+    std::int16_t* least;  // the least of a pixel's sums, per lane
+  };
+
   int disparities() const { return kDisparities != 0 ? kDisparities : range_.disparities; }
 
   std::int16_t* column(int x) const {
     return rows_.columns.data() + static_cast<std::ptrdiff_t>(x) * disparities();
   }
 
-  template <bool kBorder>
-  HWY_INLINE void advance_column(int x) {
-    const D d;
-    const int lanes = static_cast<int>(hn::Lanes(d));
-    const int disparities = this->disparities();
-    std::int16_t* HWY_RESTRICT sums = column(x);
-    const typename Delta::template Column<kBorder> delta(delta_, x);
-    for (int i = 0; i < disparities; i += 2 * lanes) {
-      V low;
-      V high;
-      delta.delta(i, low, high);
-      hn::StoreU(hn::Add(hn::LoadU(d, sums + i), low), d, sums + i);
-      hn::StoreU(hn::Add(hn::LoadU(d, sums + i + lanes), high), d, sums + i + lanes);
-    }
+  // The first column after x of another kind.
+  int alike_end(int x) const {
+    const ReversedRow& place = delta_.place();
+    const int begin = place.whole_begin();
+    const int end = place.whole_end();
+    if (begin >= end || x >= end) return range_.valid_end;
+    return std::min(x < begin ? begin : end, range_.valid_end);
+  }
+  Enters kind(int x) const {
+    const ReversedRow& place = delta_.place();
+    if (x >= range_.valid_end) return Enters::nothing;
+    return x >= place.whole_begin() && x < place.whole_end() ? Enters::whole : Enters::border;
   }
 
-  void advance_columns() {
-    for (int x = range_.valid_begin; x < range_.valid_end; ++x) {
-      if (delta_.border(x)) {
-        advance_column<true>(x);
-      } else {
-        advance_column<false>(x);
+  template <bool kBorder>
+  void advance(int x, int count) const {
+    const D d;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    const std::ptrdiff_t disparities = this->disparities();
+    for (int i = 0; i < disparities; i += 2 * lanes) {
+      const typename Delta::template Columns<kBorder> costs(delta_, x, i);
+      std::int16_t* sums = column(x) + i;
+      for (int k = 0; k < count; ++k, sums += disparities) {
+        V low;
+        V high;
+        costs.delta(k, disparities, low, high);
+        hn::StoreU(hn::Add(hn::LoadU(d, sums), low), d, sums);
+        hn::StoreU(hn::Add(hn::LoadU(d, sums + lanes), high), d, sums + lanes);
       }
     }
   }
 
-  // to = from - the column that leaves. Returns the least, per lane.
-  HWY_INLINE V slide(const std::int16_t* from, const std::int16_t* leaves, std::int16_t* to) {
-    const D d;
-    const int lanes = static_cast<int>(hn::Lanes(d));
-    const int disparities = this->disparities();
-    V least = hn::Set(d, kSumPadding);
-    for (int i = 0; i < disparities; i += lanes) {
-      const V sum = hn::Sub(hn::LoadU(d, from + i), hn::LoadU(d, leaves + i));
-      hn::StoreU(sum, d, to + i);
-      least = hn::Min(least, sum);
+  void advance_columns() const {
+    for (int x = range_.valid_begin; x < range_.valid_end;) {
+      const int end = alike_end(x);
+      if (kind(x) == Enters::whole) {
+        advance<false>(x, end - x);
+      } else {
+        advance<true>(x, end - x);
+      }
+      x = end;
     }
-    return least;
   }
 
-  // And + column x, which is advanced first.
-  template <bool kBorder>
-  HWY_INLINE V slide_and_advance(const std::int16_t* from, int x, const std::int16_t* leaves, std::int16_t* to) {
+  // Two vectors of candidates, from i on: their window slides through the pixels in registers, and the columns that
+  // enter advance first.
+  template <Enters kEnters, bool kFirst>
+  HWY_INLINE void slide(const Run& run, int i) const {
     const D d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    const int disparities = this->disparities();
-    std::int16_t* enters = column(x);
-    const typename Delta::template Column<kBorder> delta(delta_, x);
-    V least_low = hn::Set(d, kSumPadding);
-    V least_high = least_low;
-    for (int i = 0; i < disparities; i += 2 * lanes) {
-      V low;
-      V high;
-      delta.delta(i, low, high);
-      low = hn::Add(low, hn::LoadU(d, enters + i));
-      high = hn::Add(high, hn::LoadU(d, enters + i + lanes));
-      hn::StoreU(low, d, enters + i);
-      hn::StoreU(high, d, enters + i + lanes);
-      low = hn::Add(low, hn::Sub(hn::LoadU(d, from + i), hn::LoadU(d, leaves + i)));
-      high = hn::Add(high, hn::Sub(hn::LoadU(d, from + i + lanes), hn::LoadU(d, leaves + i + lanes)));
-      hn::StoreU(low, d, to + i);
-      hn::StoreU(high, d, to + i + lanes);
-      least_low = hn::Min(least_low, low);
-      least_high = hn::Min(least_high, high);
+    const std::ptrdiff_t disparities = this->disparities();
+    const std::ptrdiff_t stride = sum_stride(this->disparities(), lanes);
+    const std::ptrdiff_t leaves_step = run.leaves_step;
+    const int count = run.count;
+    const typename Delta::template Columns<kEnters == Enters::border> costs(delta_, run.x, i);
+    std::int16_t* enters = column(run.x) + i;
+    const std::int16_t* leaves = run.leaves + i;
+    std::int16_t* to = run.sums + i;
+    std::int16_t* least = run.least;
+    V low = hn::LoadU(d, run.before + i);
+    V high = hn::LoadU(d, run.before + i + lanes);
+    for (int k = 0; k < count; ++k) {
+      low = hn::Sub(low, hn::LoadU(d, leaves));
+      high = hn::Sub(high, hn::LoadU(d, leaves + lanes));
+      if (kEnters != Enters::nothing) {
+        V column_low;
+        V column_high;
+        costs.delta(k, disparities, column_low, column_high);
+        column_low = hn::Add(column_low, hn::LoadU(d, enters));
+        column_high = hn::Add(column_high, hn::LoadU(d, enters + lanes));
+        hn::StoreU(column_low, d, enters);
+        hn::StoreU(column_high, d, enters + lanes);
+        low = hn::Add(low, column_low);
+        high = hn::Add(high, column_high);
+      }
+      hn::StoreU(low, d, to);
+      hn::StoreU(high, d, to + lanes);
+      V lowest = hn::Min(low, high);
+      if (!kFirst) lowest = hn::Min(lowest, hn::LoadU(d, least));
+      hn::StoreU(lowest, d, least);
+      enters += disparities;
+      leaves += leaves_step;
+      to += stride;
+      least += lanes;
     }
-    return hn::Min(least_low, least_high);
   }
 
-  // The window of pixel u from that of u - 1.
-  HWY_INLINE V slide_to(int u, const std::int16_t* from, std::int16_t* to) {
+  template <Enters kEnters>
+  void slide_all(const Run& run) const {
+    slide<kEnters, true>(run, 0);
+    const int pair = 2 * static_cast<int>(hn::Lanes(D()));
+    for (int i = pair; i < disparities(); i += pair)
+      slide<kEnters, false>(run, i);
+  }
+
+  // Sums of pixels [u, end), from slot `slot` on.
+  void slide_to(int u, int end, int slot, std::int16_t* least) const {
     const int radius = c_.params.radius_u;
-    const int x = u + radius;
-    const int left = u - radius - 1;
-    const std::int16_t* leaves = left >= range_.valid_begin ? column(left) : rows_.zero.data();
-    if (x >= range_.valid_end) return slide(from, leaves, to);
-    if (delta_.border(x)) return slide_and_advance<true>(from, x, leaves, to);
-    return slide_and_advance<false>(from, x, leaves, to);
-  }
-
-  static int least_of(V least) {
-    const hn::RebindToUnsigned<D> du;
-    // There is no least of signed lanes on every instruction set.
-    const auto unsigned_least = hn::Xor(hn::BitCast(du, least), hn::Set(du, std::uint16_t{kSumBias}));
-    return static_cast<int>(hn::GetLane(hn::MinOfLanes(du, unsigned_least))) - kSumBias;
-  }
-
-  std::array<std::int16_t*, kPixelsPerStep> slots_from(int u, int stop) const {
-    std::array<std::int16_t*, kPixelsPerStep> slots{};
-    const int count = sum_slots(range_.disparities);
-    int index = (u - range_.valid_begin) % count;
-    for (int k = 0; k < stop - u; ++k) {
-      slots[static_cast<std::size_t>(k)] = rows_.select.slot(range_.disparities, index);
-      index = index + 1 == count ? 0 : index + 1;
-    }
-    return slots;
-  }
-
-  // Of the pixels of one step.
-  using Slots = std::array<std::int16_t*, kPixelsPerStep>;
-  using Least = std::array<std::int16_t, kPixelsPerStep>;
-
-  template <bool kInside>
-  void select_step(int begin, int end, const Slots& slots, const Least& least, const std::uint8_t* textured,
-                   std::int16_t* disparity) const {
-    const D d;
-    for (int u = begin; u < end; ++u) {
-      const auto k = static_cast<std::size_t>(u - begin);
-      if (textured[u] != 0) {
-        disparity[u] = select_.template select_left<kInside>(d, disparities(), u, slots[k], least[k]);
-      } else {
-        disparity[u] = kLowTexture;
-        rows_.select.best[static_cast<std::size_t>(u)] = -1;
+    const int lanes = static_cast<int>(hn::Lanes(D()));
+    const int slots = sum_slots(range_.disparities);
+    const std::int16_t* before = rows_.select.slot(range_.disparities, slot == 0 ? slots - 1 : slot - 1);
+    while (u < end) {
+      const int x = u + radius;
+      const int leaves = u - radius - 1;
+      const bool leaves_any = leaves >= range_.valid_begin;
+      int stop = std::min(end, leaves_any ? end : range_.valid_begin + radius + 1);
+      const Enters enters = kind(x);
+      if (enters != Enters::nothing) stop = std::min(stop, alike_end(x) - radius);
+      std::int16_t* sums = rows_.select.slot(range_.disparities, slot);
+      const Run run{
+          x,    stop - u, before, leaves_any ? column(leaves) : rows_.zero.data(), leaves_any ? disparities() : 0,
+          sums, least};
+      switch (enters) {
+        case Enters::nothing:
+          slide_all<Enters::nothing>(run);
+          break;
+        case Enters::border:
+          slide_all<Enters::border>(run);
+          break;
+        case Enters::whole:
+          slide_all<Enters::whole>(run);
+          break;
       }
+      slot += stop - u;
+      least += (stop - u) * lanes;
+      before = rows_.select.slot(range_.disparities, slot - 1);
+      u = stop;
     }
   }
 
-  void match_row(int v) {
+  void match_row(int v) const {
     const std::span<std::int16_t> disparity = row_span(c_.disparity, v);
-    std::fill(disparity.begin(), disparity.end(), std::int16_t{kNotSearched});
-    std::int16_t* before = rows_.before.data();
-    std::fill(rows_.before.begin(), rows_.before.end(), static_cast<std::int16_t>(-kSumBias));
-    // Columns of the first window but its last.
-    const int end = std::min(range_.valid_begin + c_.params.radius_u, range_.valid_end);
-    for (int x = range_.valid_begin; x < end; ++x)
-      slide_to(x - c_.params.radius_u, before, before);
+    std::fill_n(disparity.begin(), range_.valid_begin, std::int16_t{kNotSearched});
+    std::fill(disparity.begin() + range_.valid_end, disparity.end(), std::int16_t{kNotSearched});
+    if (range_.valid_begin == range_.valid_end) return;
+    const int lanes = static_cast<int>(hn::Lanes(D()));
+    const int radius = c_.params.radius_u;
+    const int slots = sum_slots(range_.disparities);
+    alignas(64) std::int16_t least[kPixelsPerStep * kMaxSumLanes];
+    // Columns of the first window but its last: as if there were pixels before the first one.
+    std::fill_n(rows_.select.slot(range_.disparities, slots - radius - 1), disparities(),
+                static_cast<std::int16_t>(-kSumBias));
+    slide_to(range_.valid_begin - radius, range_.valid_begin, slots - radius, least);
 
-    const D d;
-    const int lanes = static_cast<int>(hn::Lanes(d));
-    const std::uint8_t* textured = c_.textured.row(v);
-    std::array<std::int16_t, kPixelsPerStep> least;
     int right = range_.valid_begin;
-    const std::int16_t* from = before;
+    int slot = 0;
     for (int u = range_.valid_begin; u < range_.valid_end; u += kPixelsPerStep) {
       const int stop = std::min(u + kPixelsPerStep, range_.valid_end);
-      const std::array<std::int16_t*, kPixelsPerStep> slots = slots_from(u, stop);
-      for (int x = u; x < stop; ++x) {
-        std::int16_t* to = slots[static_cast<std::size_t>(x - u)];
-        least[static_cast<std::size_t>(x - u)] = static_cast<std::int16_t>(least_of(slide_to(x, from, to)));
-        from = to;
-      }
-      if (select_.inside(u) && select_.inside(stop - 1)) {
-        select_step<true>(u, stop, slots, least, textured, disparity.data());
-      } else {
-        select_step<false>(u, stop, slots, least, textured, disparity.data());
-      }
+      slide_to(u, stop, slot, least);
+      select_.select_left(u, stop, rows_.select.slot(range_.disparities, slot), least);
+      slot = slot + kPixelsPerStep == slots ? 0 : slot + kPixelsPerStep;
       if (c_.params.select.left_right_max < 0) continue;
       for (; right < range_.valid_end; right += lanes) {
         const int last = right + lanes - 1 + range_.first + range_.disparities - 1;
         if (last >= stop && stop < range_.valid_end) break;
-        select_.select_right(d, right);
+        select_.select_right(right);
       }
     }
-    select_.finish(disparity);
+    finish_.row(c_.textured.row(v), disparity.data());
   }
 
   const BlockCall<Traits>& c_;
   SearchRange range_;
   BlockSimdRows rows_;
   Delta& delta_;
-  Selection select_;
+  Selection<D, kDisparities> select_;
+  Finish finish_;
 };
 
 template <class D, template <class> class Delta, class Traits, class CostRows>
@@ -281,9 +303,15 @@ void match_band(const BlockCall<Traits>& call, const Rows& matched, const BlockS
   }
 }
 
+template <class D>
+using NarrowSadDelta = SadDelta<D, true>;
+template <class D>
+using WideSadDelta = SadDelta<D, false>;
+
 void sad_band(const BlockCall<SadTraits>& call, const Rows& matched, const BlockSimdRows& rows,
               const SadRows& sad) {
-  match_band<SadDelta>(call, matched, rows, sad);
+  if (call.params.edge_cap <= kMaxNarrowEdgeCap) return match_band<NarrowSadDelta>(call, matched, rows, sad);
+  match_band<WideSadDelta>(call, matched, rows, sad);
 }
 
 void census_band(const BlockCall<CensusTraits>& call, const Rows& matched, const BlockSimdRows& rows,

@@ -1,5 +1,5 @@
-// Hamming distances of census codes of one column (kernels/hamming): the row that enters a window minus the row that
-// leaves it, which is kept. The right codes lie as four planes of four bits, and what four bits differ from the left
+// Hamming distances of census codes (kernels/hamming): the row that enters a window minus the row that leaves it, which is
+// kept, for columns side by side. The right codes lie as four planes of four bits, and what four bits differ from the left
 // pixel's is looked up in the row of a table that the left bits choose: a look-up and an addition for each plane.
 #include <algorithm>
 #include <array>
@@ -78,34 +78,32 @@ class HammingDelta {
     split(call_.right.row(enters), rows_.planes.data(), static_cast<std::ptrdiff_t>(plane));
   }
 
-  bool border(int x) const { return place_.border(x); }
+  const ReversedRow& place() const { return place_; }
 
-  // Of one column, by value: what a vector store may have changed would be loaded again and again.
+  // Candidates [i, i + 2 Lanes) of columns from x on, by value: what a vector store may have changed would be loaded again
+  // and again. kBorder: some candidates are outside the right image.
   template <bool kBorder>
-  class Column {
+  class Columns {
    public:
-    HWY_INLINE Column(const HammingDelta& h, int x)
-        : at_(h.place_.of_column(x)),
-          planes_(h.planes_),
-          costs_(h.ring_ + static_cast<std::ptrdiff_t>(x) * h.place_.disparities),
-          inside_(h.rows_.inside.data() + at_),
-          outside_(h.outside_ + at_) {
-      const unsigned code = h.left_[x];
-      for (std::size_t p = 0; p < kPlanes; ++p) {
-        planes_[p] += at_;
-        tables_[p] = kNibbleDistances.of[(code >> (4 * p)) & 15U];
-      }
-    }
+    HWY_INLINE Columns(const HammingDelta& h, int x, int i)
+        : left_(h.left_ + x),
+          plane0_(h.planes_[0] + h.place_.of_column(x) + i),
+          plane1_(h.planes_[1] + h.place_.of_column(x) + i),
+          plane2_(h.planes_[2] + h.place_.of_column(x) + i),
+          plane3_(h.planes_[3] + h.place_.of_column(x) + i),
+          costs_(h.ring_ + static_cast<std::ptrdiff_t>(x) * h.place_.disparities + i),
+          inside_(h.rows_.inside.data() + h.place_.of_column(x) + i),
+          outside_(h.outside_ + h.place_.of_column(x) + i) {}
 
-    // Candidates [i, i + Lanes) and the next Lanes.
-    HWY_INLINE void delta(int i, V& low, V& high) const {
+    // Of the k-th column: the first half of the candidates, and the second. `disparities` apart.
+    HWY_INLINE void delta(std::ptrdiff_t k, std::ptrdiff_t disparities, V& low, V& high) const {
       const Bytes d8;
-      auto cost = distance(i, 0);
-      for (std::size_t p = 1; p < kPlanes; ++p)
-        cost = hn::Add(cost, distance(i, p));
-      if (kBorder) cost = hn::Or(hn::And(cost, hn::LoadU(d8, inside_ + i)), hn::LoadU(d8, outside_ + i));
-      const auto old = hn::LoadU(d8, costs_ + i);
-      hn::StoreU(cost, d8, costs_ + i);
+      const std::size_t code = left_[k];
+      auto cost = hn::Add(hn::Add(distance(code & 15, plane0_ - k), distance(code >> 4 & 15, plane1_ - k)),
+                          hn::Add(distance(code >> 8 & 15, plane2_ - k), distance(code >> 12, plane3_ - k)));
+      if (kBorder) cost = hn::Or(hn::And(cost, hn::LoadU(d8, inside_ - k)), hn::LoadU(d8, outside_ - k));
+      const auto old = hn::LoadU(d8, costs_ + k * disparities);
+      hn::StoreU(cost, d8, costs_ + k * disparities);
       const hn::Repartition<std::int8_t, D> di8;
       const hn::Rebind<std::int8_t, D> half;
       const auto change = hn::BitCast(di8, hn::Sub(cost, old));
@@ -114,14 +112,16 @@ class HammingDelta {
     }
 
    private:
-    HWY_INLINE hn::Vec<hn::Repartition<std::uint8_t, D>> distance(int i, std::size_t p) const {
+    static HWY_INLINE hn::Vec<Bytes> distance(std::size_t left, const std::uint8_t* right) {
       const Bytes d8;
-      return hn::TableLookupBytes(hn::LoadDup128(d8, tables_[p]), hn::LoadU(d8, planes_[p] + i));
+      return hn::TableLookupBytes(hn::LoadDup128(d8, kNibbleDistances.of[left]), hn::LoadU(d8, right));
     }
 
-    std::ptrdiff_t at_;
-    std::array<const std::uint8_t*, kPlanes> planes_;
-    std::array<const std::uint8_t*, kPlanes> tables_;
+    const CensusCode* left_;
+    const std::uint8_t* plane0_;
+    const std::uint8_t* plane1_;
+    const std::uint8_t* plane2_;
+    const std::uint8_t* plane3_;
     std::uint8_t* costs_;
     const std::uint8_t* inside_;
     const std::uint8_t* outside_;
@@ -136,15 +136,16 @@ class HammingDelta {
     const auto low_bits = hn::Set(d, std::uint8_t{15});
     int j = place_.inside_begin;
     for (; j + 16 <= place_.inside_end; j += 16) {
-      hn::Vec<decltype(d)> bytes[2];
-      hn::LoadInterleaved2(d, reinterpret_cast<const std::uint8_t*>(right + (last - j - 15)), bytes[0], bytes[1]);
+      hn::Vec<decltype(d)> low;
+      hn::Vec<decltype(d)> high;
+      hn::LoadInterleaved2(d, reinterpret_cast<const std::uint8_t*>(right + (last - j - 15)), low, high);
+      low = hn::TableLookupBytes(low, reverse);
+      high = hn::TableLookupBytes(high, reverse);
       std::uint8_t* to = planes + j;
-      for (const auto& byte : bytes) {
-        const auto reversed = hn::TableLookupBytes(byte, reverse);
-        hn::StoreU(hn::And(reversed, low_bits), d, to);
-        hn::StoreU(hn::ShiftRight<4>(reversed), d, to + stride);
-        to += 2 * stride;
-      }
+      hn::StoreU(hn::And(low, low_bits), d, to);
+      hn::StoreU(hn::ShiftRight<4>(low), d, to + stride);
+      hn::StoreU(hn::And(high, low_bits), d, to + 2 * stride);
+      hn::StoreU(hn::ShiftRight<4>(high), d, to + 3 * stride);
     }
     for (; j < place_.inside_end; ++j) {
       for (std::size_t p = 0; p < kPlanes; ++p)

@@ -1,5 +1,5 @@
-// Absolute differences of edges of one column (kernels/sad): the row that enters a window minus the row that leaves it.
-// Both are computed: two operations each, as many as it takes to store the costs and to load them again later.
+// Absolute differences of edges (kernels/sad): the row that enters a window minus the row that leaves it, for columns side
+// by side. Both are computed: two operations each, fewer than it takes to store the costs and to load them again later.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -17,23 +17,33 @@
 #define LAKSHYA_SAD_SIMD_INL
 #endif
 
+#ifndef LAKSHYA_SAD_SIMD_SHARED
+#define LAKSHYA_SAD_SIMD_SHARED
+namespace lakshya {
+inline constexpr int kMaxNarrowEdgeCap = 63;  // differences of edges, and of costs, fit signed bytes
+}  // namespace lakshya
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace lakshya {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <class D>
+// kNarrow: the edges are at most 2 kMaxNarrowEdgeCap.
+template <class D, bool kNarrow>
 class SadDelta {
+  using Bytes = hn::Repartition<std::uint8_t, D>;
+
  public:
   using V = hn::Vec<D>;
 
   SadDelta(const BlockCall<SadTraits>& call, const SadRows& rows)
       : call_(call), rows_(rows), place_(call.params.range) {
-    std::fill(rows.zero.begin(), rows.zero.end(), std::int16_t{0});
+    std::fill(rows.zero.begin(), rows.zero.end(), std::uint8_t{0});
     for (std::size_t j = 0; j < rows.inside.size(); ++j) {
       const bool inside = place_.inside(static_cast<int>(j));
-      rows.inside[j] = static_cast<std::int16_t>(inside ? -1 : 0);
-      rows.outside[j] = inside ? std::int16_t{0} : std::int16_t{SadTraits::outside(call.params)};
+      rows.inside[j] = static_cast<std::uint8_t>(inside ? 255 : 0);
+      rows.outside[j] = inside ? std::uint8_t{0} : SadTraits::outside(call.params);
     }
   }
 
@@ -43,59 +53,70 @@ class SadDelta {
     leaves_ = prepare(leaves, rows_.leaves);
   }
 
-  bool border(int x) const { return place_.border(x); }
+  const ReversedRow& place() const { return place_; }
 
-  // Of one column, by value: what a vector store may have changed would be loaded again and again.
+  // Candidates [i, i + 2 Lanes) of columns from x on, by value: what a vector store may have changed would be loaded again
+  // and again. kBorder: some candidates are outside the right image.
   template <bool kBorder>
-  class Column {
+  class Columns {
    public:
-    HWY_INLINE Column(const SadDelta& s, int x)
-        : left_new_(twice(s.enters_.left[x])),
-          left_old_(twice(s.leaves_.left[x])),
-          right_new_(s.enters_.right + s.place_.of_column(x)),
-          right_old_(s.leaves_.right + s.place_.of_column(x)),
-          inside_(s.rows_.inside.data() + s.place_.of_column(x)),
-          outside_new_(s.enters_.outside + s.place_.of_column(x)),
-          outside_old_(s.leaves_.outside + s.place_.of_column(x)) {}
+    HWY_INLINE Columns(const SadDelta& s, int x, int i)
+        : left_new_(s.enters_.left + x),
+          left_old_(s.leaves_.left + x),
+          right_new_(s.enters_.right + s.place_.of_column(x) + i),
+          right_old_(s.leaves_.right + s.place_.of_column(x) + i),
+          inside_(s.rows_.inside.data() + s.place_.of_column(x) + i),
+          outside_new_(s.enters_.outside + s.place_.of_column(x) + i),
+          outside_old_(s.leaves_.outside + s.place_.of_column(x) + i) {}
 
-    // Candidates [i, i + Lanes) and the next Lanes.
-    HWY_INLINE void delta(int i, V& low, V& high) const {
-      low = one(i);
-      high = one(i + static_cast<int>(hn::Lanes(D())));
+    // Of the k-th column: the first half of the candidates, and the second.
+    HWY_INLINE void delta(std::ptrdiff_t k, std::ptrdiff_t /*disparities*/, V& low, V& high) const {
+      const D d;
+      auto enters = difference(left_new_[k], right_new_ - k);
+      auto leaves = difference(left_old_[k], right_old_ - k);
+      if (kBorder) {
+        const Bytes d8;
+        const auto inside = hn::LoadU(d8, inside_ - k);
+        enters = hn::Or(hn::And(enters, inside), hn::LoadU(d8, outside_new_ - k));
+        leaves = hn::Or(hn::And(leaves, inside), hn::LoadU(d8, outside_old_ - k));
+      }
+      if (kNarrow) {
+        const hn::Rebind<std::int8_t, D> half;
+        const auto change = hn::BitCast(hn::Repartition<std::int8_t, D>(), hn::Sub(enters, leaves));
+        low = hn::PromoteTo(d, hn::LowerHalf(half, change));
+        high = hn::PromoteTo(d, hn::UpperHalf(half, change));
+      } else {
+        const hn::Rebind<std::uint8_t, D> half;
+        low = hn::Sub(hn::PromoteTo(d, hn::LowerHalf(half, enters)), hn::PromoteTo(d, hn::LowerHalf(half, leaves)));
+        high =
+            hn::Sub(hn::PromoteTo(d, hn::UpperHalf(half, enters)), hn::PromoteTo(d, hn::UpperHalf(half, leaves)));
+      }
     }
 
    private:
-    static HWY_INLINE V twice(std::uint32_t left) {
-      const hn::Repartition<std::uint32_t, D> d32;
-      return hn::BitCast(D(), hn::Set(d32, left));
+    static HWY_INLINE hn::Vec<Bytes> difference(std::uint32_t left, const std::uint8_t* right) {
+      const Bytes d8;
+      const auto l = hn::BitCast(d8, hn::Set(hn::Repartition<std::uint32_t, D>(), left));
+      const auto r = hn::LoadU(d8, right);
+      const hn::Repartition<std::int8_t, D> di8;
+      if (kNarrow) return hn::BitCast(d8, hn::Abs(hn::BitCast(di8, hn::Sub(l, r))));
+      return hn::Sub(hn::Max(l, r), hn::Min(l, r));
     }
 
-    HWY_INLINE V one(int i) const {
-      const D d;
-      V enters = hn::Abs(hn::Sub(left_new_, hn::LoadU(d, right_new_ + i)));
-      V leaves = hn::Abs(hn::Sub(left_old_, hn::LoadU(d, right_old_ + i)));
-      if (kBorder) {
-        const V inside = hn::LoadU(d, inside_ + i);
-        enters = hn::Or(hn::And(enters, inside), hn::LoadU(d, outside_new_ + i));
-        leaves = hn::Or(hn::And(leaves, inside), hn::LoadU(d, outside_old_ + i));
-      }
-      return hn::Sub(enters, leaves);
-    }
-
-    V left_new_;
-    V left_old_;
-    const std::int16_t* right_new_;
-    const std::int16_t* right_old_;
-    const std::int16_t* inside_;
-    const std::int16_t* outside_new_;
-    const std::int16_t* outside_old_;
+    const std::uint32_t* left_new_;
+    const std::uint32_t* left_old_;
+    const std::uint8_t* right_new_;
+    const std::uint8_t* right_old_;
+    const std::uint8_t* inside_;
+    const std::uint8_t* outside_new_;
+    const std::uint8_t* outside_old_;
   };
 
  private:
   struct Row {
-    const std::uint32_t* left;  // twice the same 16 bits
-    const std::int16_t* right;
-    const std::int16_t* outside;
+    const std::uint32_t* left;
+    const std::uint8_t* right;
+    const std::uint8_t* outside;
   };
 
   Row prepare(int v, const SadRows::Prepared& to) const {
@@ -103,10 +124,10 @@ class SadDelta {
     const std::uint8_t* left = call_.left.row(v);
     const std::uint8_t* right = call_.right.row(v);
     const SearchRange range = call_.params.range;
-    std::uint32_t* HWY_RESTRICT twice = to.left.data();
+    std::uint32_t* HWY_RESTRICT four_times = to.left.data();
     for (int x = range.valid_begin; x < range.valid_end; ++x)
-      twice[x] = left[x] * 0x10001U;
-    std::int16_t* HWY_RESTRICT target = to.right.data();
+      four_times[x] = left[x] * 0x01010101U;
+    std::uint8_t* HWY_RESTRICT target = to.right.data();
     const int last = place_.column_of(0);
     const int end = place_.inside_end;
     for (int j = place_.inside_begin; j < end; ++j)

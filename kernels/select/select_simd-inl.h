@@ -7,8 +7,8 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
-#include <type_traits>
 
 #include "hwy/highway.h"
 #include "kernels/base/search_range.h"
@@ -29,30 +29,34 @@ namespace lakshya {
 inline constexpr int kMaxSumLanes = 32;  // int16 in 64 bytes: no vector is made longer
 inline constexpr int kSumBias = 32768;
 inline constexpr std::int16_t kSumPadding = 32767;
-inline constexpr std::int16_t kNoRightWinner = -2 * kMaxDisparities;
+inline constexpr std::int32_t kNoRightWinner = -2 * kMaxDisparities;
 inline constexpr int kPixelsPerStep = 32;  // sums first, then winners: as many as stay in the first cache
+inline constexpr int kNearSums =
+    4;  // the sums of the candidate before the winner, of the winner and of the next two
 
+// From one pixel's candidate 0 to the next one's: the padding after one is that before the other.
 constexpr int sum_stride(int disparities, int lanes) {
-  return disparities + 2 * lanes;
+  return disparities + lanes;
 }
 
-// Right pixels are searched a vector at a time, once the last left pixel that can match one of them is there.
+// Right pixels are searched a vector at a time, once the last left pixel that can match one of them is there. Whole steps,
+// so that the pixels of one lie side by side.
 constexpr int sum_slots(int disparities) {
-  return disparities + kMaxSumLanes + kPixelsPerStep;
+  return (disparities + kMaxSumLanes + 2 * kPixelsPerStep - 1) / kPixelsPerStep * kPixelsPerStep;
 }
 
-// Of one row.
+// Of one row. What belongs to pixels has room for a vector behind the last.
 struct SelectRows {
   int lanes = kMaxSumLanes;
-  std::span<std::int16_t> sums;      // sum_slots x sum_stride
-  std::span<std::int16_t> best;      // winner of a left pixel, or -1 when its disparity is decided
-  std::span<std::int16_t> fraction;  // its sub-pixel part
-  std::span<std::int16_t> right;     // winner of a right pixel
+  std::span<std::int16_t> sums;   // lanes + sum_slots x sum_stride
+  std::span<std::int16_t> best;   // winner of a left pixel, or the reason why it has no disparity
+  std::span<std::int16_t> near;   // kNearSums of every left pixel
+  std::span<std::int32_t> right;  // winner of a right pixel
 
-  std::int16_t& right_of(int u) const { return right[static_cast<std::size_t>(u + 1)]; }
+  std::int32_t* right_of(int u) const { return right.data() + u + 1; }
   // Candidate 0 of slot `index`; pixel u has slot (u - valid_begin) mod sum_slots.
   std::int16_t* slot(int disparities, int index) const {
-    return sums.data() + static_cast<std::ptrdiff_t>(index) * sum_stride(disparities, lanes) + lanes;
+    return sums.data() + lanes + static_cast<std::ptrdiff_t>(index) * sum_stride(disparities, lanes);
   }
 };
 
@@ -64,29 +68,73 @@ namespace lakshya {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// First and last candidate whose sum is at most `limit`; there is one.
-struct Candidates {
-  int first;
-  int last;
-};
-
+// The least of a vector's (biased) sums, without the bias.
+#if HWY_ARCH_X86
+HWY_INLINE int least_sum(hn::Simd<std::int16_t, 8, 0> d, hn::Vec<hn::Simd<std::int16_t, 8, 0>> v) {
+  const auto sums = hn::Xor(v, hn::Set(d, std::int16_t{-kSumBias}));
+  return static_cast<std::uint16_t>(_mm_cvtsi128_si32(_mm_minpos_epu16(sums.raw)));
+}
 template <class D>
-using MaskBits = std::conditional_t<hn::MaxLanes(D()) <= 8, std::uint8_t,
-                                    std::conditional_t<hn::MaxLanes(D()) <= 16, std::uint16_t, std::uint32_t>>;
+HWY_INLINE int least_sum(D d, hn::Vec<D> v) {
+  const hn::Half<D> half;
+  return least_sum(half, hn::Min(hn::LowerHalf(half, v), hn::UpperHalf(half, v)));
+}
+#else
+template <class D>
+HWY_INLINE int least_sum(D d, hn::Vec<D> v) {
+  const hn::RebindToUnsigned<D> du;
+  // There is no least of signed lanes on every instruction set.
+  const auto sums = hn::Xor(hn::BitCast(du, v), hn::Set(du, std::uint16_t{kSumBias}));
+  return static_cast<int>(hn::GetLane(hn::MinOfLanes(du, sums)));
+}
+#endif
+
+// One bit per lane of two masks.
+template <class D, class M>
+HWY_INLINE std::uint64_t bits_of_two(D d, M low, M high) {
+  const int lanes = static_cast<int>(hn::Lanes(d));
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+  return std::uint64_t{low.raw} | std::uint64_t{high.raw} << lanes;
+#else
+  std::uint64_t bits[2] = {};
+  hn::StoreMaskBits(d, low, reinterpret_cast<std::uint8_t*>(&bits[0]));
+  hn::StoreMaskBits(d, high, reinterpret_cast<std::uint8_t*>(&bits[1]));
+  return bits[0] | bits[1] << lanes;
+#endif
+}
+#if HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_AVX2
+template <class M>
+HWY_INLINE std::uint64_t bits_of_two(hn::Simd<std::int16_t, 8, 0> /*d*/, M low, M high) {
+  return static_cast<unsigned>(_mm_movemask_epi8(_mm_packs_epi16(low.raw, high.raw)));
+}
+#endif
+#if HWY_TARGET == HWY_AVX2
+template <class M>
+HWY_INLINE std::uint64_t bits_of_two(hn::Simd<std::int16_t, 16, 0> /*d*/, M low, M high) {
+  // Packing works in halves of the vectors.
+  const __m256i bytes = _mm256_permute4x64_epi64(_mm256_packs_epi16(low.raw, high.raw), 0xD8);
+  return static_cast<unsigned>(_mm256_movemask_epi8(bytes));
+}
+#endif
 
 // Bit k: candidate k of `count` (at most 64, a constant after inlining) is above the limit.
 template <class D>
 HWY_INLINE std::uint64_t bits_above(D d, const std::int16_t* sums, int count, hn::Vec<D> limit) {
   const int lanes = static_cast<int>(hn::Lanes(d));
   std::uint64_t bits = 0;
-  for (int i = 0; i < count; i += lanes) {
-    // Just as wide as the vector: a wider one would be written in part and read as a whole, which stalls.
-    MaskBits<D> above = 0;
-    hn::StoreMaskBits(d, hn::Gt(hn::LoadU(d, sums + i), limit), reinterpret_cast<std::uint8_t*>(&above));
-    bits |= std::uint64_t{above} << i;
+  for (int i = 0; i < count; i += 2 * lanes) {
+    const auto low = hn::Gt(hn::LoadU(d, sums + i), limit);
+    const auto high = hn::Gt(hn::LoadU(d, sums + i + lanes), limit);
+    bits |= bits_of_two(d, low, high) << i;
   }
   return bits;
 }
+
+// First and last candidate whose sum is at most `limit`; there is one.
+struct Candidates {
+  int first;
+  int last;
+};
 
 template <class D>
 HWY_INLINE Candidates at_most(D d, const std::int16_t* sums, int disparities, std::int16_t limit) {
@@ -108,50 +156,32 @@ HWY_INLINE Candidates at_most(D d, const std::int16_t* sums, int disparities, st
   return found;
 }
 
+// kDisparities: their number, if it is a usual one, for loops of a constant length; or 0.
+template <class D, int kDisparities>
 class Selection {
  public:
   Selection(const SearchRange& range, const SelectParams& params, const SelectRows& rows)
       : range_(range), p_(params), rows_(rows), reciprocal_((std::uint64_t{1} << 32) / divisor() + 1) {}
 
-  // Winner, uniqueness and sub-pixel of left pixel u, whose least (biased) sum is `least`; returns the code if it has no
-  // disparity.
-  // kInside: every candidate of the pixel is in the right image.
-  template <bool kInside, class D>
-  HWY_INLINE std::int16_t select_left(D d, int disparities, int u, const std::int16_t* sums, int least) const {
-    const int sum = least + kSumBias;
-    int winner = 0;
-    bool unique = true;
-    const int right_column = u - range_.first;  // of candidate 0
-    if (!kInside || p_.uniqueness_percent == 0 || sum == 0) {
-      winner = at_most(d, sums, disparities, static_cast<std::int16_t>(least)).first;
-      if (right_column - winner >= range_.valid_end || right_column - winner < range_.valid_begin) {
-        rows_.best[static_cast<std::size_t>(u)] = -1;
-        return kNotSearched;
-      }
-    }
-    if (p_.uniqueness_percent != 0 && sum != 0) {
-      const Candidates near = at_most(d, sums, disparities, limit(sum));
-      // The winner is among them; with its two neighbours it spans at most three. No branch before the end: what the
-      // images hold would be guessed wrong too often.
-      const int a = sums[near.first];
-      const int b = sums[near.first + 1];  // the padding, when there is none
-      const int c = sums[near.first + 2];
-      winner = near.first + (c < std::min(a, b) ? 2 : (b < a ? 1 : 0));
-      unique = std::max(near.last - winner, winner - near.first) <= 1;
-    }
-    rows_.best[static_cast<std::size_t>(u)] = static_cast<std::int16_t>(unique ? winner : -1);
-    rows_.fraction[static_cast<std::size_t>(u)] = static_cast<std::int16_t>(sub_pixel(sums, winner));
-    return unique ? std::int16_t{0} : std::int16_t{kNotUnique};
-  }
-
-  bool inside(int u) const {
-    const int right = u - range_.first;  // of candidate 0
-    return right < range_.valid_end && right - (range_.disparities - 1) >= range_.valid_begin;
+  // Winners, uniqueness and the sums around the winner of left pixels [begin, end) of one step; `sums` of the first,
+  // `least`: a vector per pixel, of which the smallest is the smallest sum.
+  void select_left(int begin, int end, const std::int16_t* sums, const std::int16_t* least) const {
+    // Those whose candidates are all in the right image lie together.
+    const int inside_begin = std::clamp(range_.valid_begin + range_.first + range_.disparities - 1, begin, end);
+    const int inside_end = std::clamp(range_.valid_end + range_.first, inside_begin, end);
+    const std::ptrdiff_t stride = sum_stride(range_.disparities, rows_.lanes);
+    const auto select = [&](auto inside, int from, int to) {
+      select_run<decltype(inside)::value>(from, to, sums + (from - begin) * stride,
+                                          least + (from - begin) * rows_.lanes);
+    };
+    select(std::false_type{}, begin, inside_begin);
+    select(std::true_type{}, inside_begin, inside_end);
+    select(std::false_type{}, inside_end, end);
   }
 
   // Winners of the right pixels [begin, begin + Lanes(d)).
-  template <class D>
-  void select_right(D d, int begin) const {
+  void select_right(int begin) const {
+    const D d;
     const int lanes = static_cast<int>(hn::Lanes(d));
     const int n = range_.disparities;
     // Lane k is right pixel begin + lanes - 1 - k: so its candidates of one left pixel lie side by side.
@@ -160,9 +190,9 @@ class Selection {
     const int last = std::min(candidate0 + n - 1, range_.valid_end - 1);
     auto best = hn::Set(d, kSumPadding);
     auto winner = hn::Zero(d);
-    auto candidate = hn::Iota(d, static_cast<std::int16_t>(first - candidate0));
+    auto candidate = hn::Add(hn::Iota(d, 0), hn::Set(d, static_cast<std::int16_t>(first - candidate0)));
     const auto one = hn::Set(d, std::int16_t{1});
-    const int stride = sum_stride(n, lanes);
+    const int stride = sum_stride(n, rows_.lanes);
     const int slots = sum_slots(n);
     for (int u = first; u <= last;) {
       // As far as the ring goes on.
@@ -178,60 +208,51 @@ class Selection {
       }
       u += run;
     }
-    hn::StoreU(hn::Reverse(d, winner), d, &rows_.right_of(begin));
-  }
-
-  // When the whole row has been through the two above.
-  void finish(std::span<std::int16_t> disparity) const {
-    if (p_.left_right_max < 0) return finish_row<false>(disparity.data());
-    // The right pixels just outside agree with nobody.
-    rows_.right_of(range_.valid_begin - 1) = kNoRightWinner;
-    rows_.right_of(range_.valid_end) = kNoRightWinner;
-    finish_row<true>(disparity.data());
+    alignas(64) std::int16_t winners[kMaxSumLanes];
+    hn::StoreU(hn::Reverse(d, winner), d, winners);
+    std::copy_n(winners, lanes, rows_.right_of(begin));
   }
 
  private:
+  int disparities() const { return kDisparities != 0 ? kDisparities : range_.disparities; }
   std::uint32_t divisor() const { return static_cast<std::uint32_t>(100 - p_.uniqueness_percent); }
 
-  // The largest S with S (100 - uniqueness) < 100 least, biased. Exact: the dividend is below 2^23, the divisor at most
-  // 100, their product below 2^32.
-  std::int16_t limit(int least) const {
-    const auto dividend = static_cast<std::uint64_t>(100 * least - 1);
-    const auto quotient = static_cast<int>((dividend * reciprocal_) >> 32);
-    return static_cast<std::int16_t>(std::min(quotient, 65534) - kSumBias);
-  }
-
-  // As in the header; of a winner the numerator is at most the denominator, and adding 16 to the quotient makes it an
-  // unsigned division. (The padding is there for the ends of the range.)
-  int sub_pixel(const std::int16_t* sums, int best) const {
-    const std::int32_t before = sums[best - 1];
-    const std::int32_t after = sums[best + 1];
-    const std::int32_t denominator = std::max(before + after - 2 * sums[best], 1);
-    const std::int32_t dividend = kDisparityScale * (before - after) + denominator + 32 * denominator;
-    const auto shifted = static_cast<std::uint32_t>(dividend) / static_cast<std::uint32_t>(2 * denominator);
-    const bool at_the_end = best == 0 || best == range_.disparities - 1;
-    return at_the_end ? 0 : static_cast<int>(shifted) - 16;
-  }
-
-  template <bool kLeftRight>
-  void finish_row(std::int16_t* HWY_RESTRICT disparity) const {
-    const std::int16_t* best_of = rows_.best.data();
-    const std::int16_t* fraction_of = rows_.fraction.data();
-    const std::int16_t* right = &rows_.right_of(0);
-    const int first = range_.first;
-    const int offset16 = p_.offset16;
-    const int most = std::min(p_.left_right_max, kMaxDisparities);
-    const int end = range_.valid_end;
-    for (int u = range_.valid_begin; u < end; ++u) {
-      const int best = best_of[u];
-      if (best < 0) continue;
-      const int fraction = fraction_of[u];
-      // The right pixels of the disparity rounded down and up: the winner's, and with a fraction one beside it.
-      const std::int16_t* here = right + (u - first - best);
-      const std::int16_t* beside = here - ((fraction > 0 ? 1 : 0) - (fraction < 0 ? 1 : 0));
-      const bool agree = !kLeftRight || std::min(std::abs(best - *here), std::abs(best - *beside)) <= most;
-      const int d = kDisparityScale * (first + best) + fraction + offset16;
-      disparity[u] = agree ? static_cast<std::int16_t>(d) : std::int16_t{kLeftRightFailed};
+  // kInside: every candidate of the pixels is in the right image.
+  template <bool kInside>
+  void select_run(int begin, int end, const std::int16_t* sums, const std::int16_t* least) const {
+    const D d;
+    const int disparities = this->disparities();
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    const std::ptrdiff_t stride = sum_stride(disparities, lanes);
+    const std::uint64_t reciprocal = reciprocal_;
+    const SearchRange range = range_;
+    const bool every_winner = p_.uniqueness_percent == 0;
+    std::int16_t* HWY_RESTRICT best = rows_.best.data();
+    std::int16_t* HWY_RESTRICT near_sums = rows_.near.data();
+    for (int u = begin; u < end; ++u, sums += stride, least += lanes) {
+      const int sum = least_sum(d, hn::LoadU(d, least));
+      // The largest S with S (100 - uniqueness) < 100 sum. Exact: the dividend is below 2^23, the divisor at most 100,
+      // their product below 2^32. (Of a sum of 0 none is.)
+      const auto quotient =
+          static_cast<int>((static_cast<std::uint64_t>(100 * sum - (sum > 0)) * reciprocal) >> 32);
+      const int limit = std::clamp(quotient, sum, 65534);
+      const Candidates near = at_most(d, sums, disparities, static_cast<std::int16_t>(limit - kSumBias));
+      // The winner is among them; with its two neighbours it spans at most three. No branch before the end: what the
+      // images hold would be guessed wrong too often.
+      const int a = sums[near.first];
+      const int b = sums[near.first + 1];  // the padding, when there is none
+      const int c = sums[near.first + 2];
+      int winner = near.first + (c < std::min(a, b) ? 2 : (b < a ? 1 : 0));
+      const bool unique = (std::max(near.last - winner, winner - near.first) <= 1) | (sum == 0) | every_winner;
+      int found = unique ? winner : kNotUnique;
+      if (!kInside) {
+        winner = at_most(d, sums, disparities, static_cast<std::int16_t>(sum - kSumBias)).first;
+        const int column = u - range.first - winner;
+        if (column < range.valid_begin || column >= range.valid_end) found = kNotSearched;
+      }
+      best[u] = static_cast<std::int16_t>(found);
+      std::memcpy(near_sums + kNearSums * static_cast<std::ptrdiff_t>(u), sums + (winner - 1),
+                  kNearSums * sizeof(std::int16_t));
     }
   }
 
