@@ -39,7 +39,8 @@ struct BlockSimdRows {
     r.select.sums = scratch.take<std::int16_t>(kMaxSumLanes +
                                                static_cast<std::size_t>(sum_slots(disparities)) *
                                                    static_cast<std::size_t>(sum_stride(disparities, kMaxSumLanes)));
-    r.select.best = scratch.take<std::int16_t>(columns + kMaxSumLanes);
+    r.select.first = scratch.take<std::int16_t>(columns + kMaxSumLanes);
+    r.select.last = scratch.take<std::int16_t>(columns + kMaxSumLanes);
     r.select.near = scratch.take<std::int16_t>(kNearSums * (columns + kMaxSumLanes));
     r.select.right = scratch.take<std::int32_t>(columns + kMaxSumLanes + 2);
     return r;

@@ -50,16 +50,9 @@ class Finish {
   // 1/16 px: floor((16 num + den) / (2 den)). The quotient of a winner is between 0 and 16.5 away from 0 and differs from
   // every whole number by nothing or by at least 1 / (2 den) > 2^-19, so its rounding to a float (2^-20 at most) does
   // not change its floor.
-  HWY_INLINE V fraction(int u, V best) const {
+  HWY_INLINE V fraction(V best, V before, V here, V after) const {
     const Ints d;
     const hn::RebindToFloat<Ints> df;
-    V before_and_here;
-    V after;
-    const std::int16_t* sums = rows_.near.data() + kNearSums * static_cast<std::ptrdiff_t>(u);
-    hn::LoadInterleaved2(d, reinterpret_cast<const std::int32_t*>(sums), before_and_here, after);
-    const V before = hn::ShiftRight<16>(hn::ShiftLeft<16>(before_and_here));
-    const V here = hn::ShiftRight<16>(before_and_here);
-    after = hn::ShiftRight<16>(hn::ShiftLeft<16>(after));
     const V curvature = hn::Sub(hn::Add(before, after), hn::Add(here, here));
     const V denominator = hn::Max(curvature, hn::Set(d, 1));
     const V dividend = hn::Add(hn::ShiftLeft<kDisparityBits>(hn::Sub(before, after)), denominator);
@@ -68,6 +61,9 @@ class Finish {
     const auto inner = hn::And(hn::Gt(best, hn::Zero(d)), hn::Lt(best, hn::Set(d, range_.disparities - 1)));
     return hn::IfThenElseZero(inner, hn::ConvertTo(d, hn::Floor(quotient)));
   }
+
+  static HWY_INLINE V lower(V pair) { return hn::ShiftRight<16>(hn::ShiftLeft<16>(pair)); }
+  static HWY_INLINE V upper(V pair) { return hn::ShiftRight<16>(pair); }
 
   // Whether the winner of right pixel `column` is near to `best`.
   HWY_INLINE hn::Mask<Ints> agrees(V column, V best) const {
@@ -79,23 +75,50 @@ class Finish {
   HWY_INLINE hn::Vec<Words> pixels(int u, const std::uint8_t* textured) const {
     const Ints d;
     const V zero = hn::Zero(d);
-    const V best = hn::PromoteTo(d, hn::LoadU(Words(), rows_.best.data() + u));
-    const V part = fraction(u, best);
+    const V first = hn::PromoteTo(d, hn::LoadU(Words(), rows_.first.data() + u));
+    const V last = hn::PromoteTo(d, hn::LoadU(Words(), rows_.last.data() + u));
+    V s01;
+    V s23;
+    V s45;
+    V unused;
+    const std::int16_t* near = rows_.near.data() + kNearSums * static_cast<std::ptrdiff_t>(u);
+    hn::LoadInterleaved4(d, reinterpret_cast<const std::int32_t*>(near), s01, s23, s45, unused);
+    // The winner is among the near candidates, which span at most three if they are only it and its neighbours.
+    V before = lower(s01);
+    V here = upper(s01);
+    V after = lower(s23);
+    const V next = upper(s23);
+    const auto third = hn::Lt(next, hn::Min(here, after));
+    const auto second = hn::Lt(after, here);
+    V place = hn::IfThenElseZero(second, hn::Set(d, 1));
+    before = hn::IfThenElse(third, after, hn::IfThenElse(second, here, before));
+    const V after_second = hn::IfThenElse(second, next, after);
+    here = hn::IfThenElse(third, next, hn::Min(here, after));
+    after = hn::IfThenElse(third, lower(s45), after_second);
+    place = hn::IfThenElse(third, hn::Set(d, 2), place);
+    const V best = hn::Add(first, place);
+    const V reach = hn::Max(hn::Sub(last, best), place);
+    const V part = fraction(best, before, here, after);
     const V whole = hn::Add(best, hn::Set(d, range_.first));
     V result = hn::Add(hn::Add(hn::ShiftLeft<kDisparityBits>(whole), part), hn::Set(d, p_.offset16));
     if (p_.left_right_max >= 0) {
       // The right pixels of the disparity rounded down and up: the winner's, and with a fraction one beside it. Any, where
       // there is no winner.
       const V pixel = hn::Add(hn::Iota(d, 0), hn::Set(d, u));
-      const V here =
+      const V column =
           hn::Min(hn::Max(hn::Sub(pixel, whole), hn::Set(d, range_.valid_begin)), hn::Set(d, range_.valid_end - 1));
       const V right = hn::VecFromMask(d, hn::Gt(part, zero));  // -1
       const V left = hn::VecFromMask(d, hn::Lt(part, zero));
-      const V beside = hn::Sub(hn::Add(here, right), left);
-      result = hn::IfThenElse(hn::Or(agrees(here, best), agrees(beside, best)), result,
+      const V beside = hn::Sub(hn::Add(column, right), left);
+      result = hn::IfThenElse(hn::Or(agrees(column, best), agrees(beside, best)), result,
                               hn::Set(d, std::int32_t{kLeftRightFailed}));
     }
-    result = hn::IfThenElse(hn::Lt(best, zero), best, result);
+    if (p_.uniqueness_percent != 0) {
+      // No sum is less than 0.
+      const auto rivals = hn::And(hn::Gt(reach, hn::Set(d, 1)), hn::Gt(here, hn::Set(d, -kSumBias)));
+      result = hn::IfThenElse(rivals, hn::Set(d, std::int32_t{kNotUnique}), result);
+    }
+    result = hn::IfThenElse(hn::Lt(first, zero), hn::Set(d, std::int32_t{kNotSearched}), result);
     const auto flat = hn::Eq(hn::PromoteTo(d, hn::LoadU(Bytes(), textured)), zero);
     return hn::DemoteTo(Words(), hn::IfThenElse(flat, hn::Set(d, std::int32_t{kLowTexture}), result));
   }

@@ -4,10 +4,8 @@
 // Sums are stored as int16, the uint16 sum minus 32768, because x86 compares signed lanes only. Before and after the
 // candidates of a pixel lie as many elements as a vector holds, kSumPadding, which never win.
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 
 #include "hwy/highway.h"
@@ -31,8 +29,8 @@ inline constexpr int kSumBias = 32768;
 inline constexpr std::int16_t kSumPadding = 32767;
 inline constexpr std::int32_t kNoRightWinner = -2 * kMaxDisparities;
 inline constexpr int kPixelsPerStep = 32;  // sums first, then winners: as many as stay in the first cache
-inline constexpr int kNearSums =
-    4;  // the sums of the candidate before the winner, of the winner and of the next two
+// Sums that are kept of a pixel, from the one before the first near candidate on; five are looked at.
+inline constexpr int kNearSums = 8;
 
 // From one pixel's candidate 0 to the next one's: the padding after one is that before the other.
 constexpr int sum_stride(int disparities, int lanes) {
@@ -48,8 +46,10 @@ constexpr int sum_slots(int disparities) {
 // Of one row. What belongs to pixels has room for a vector behind the last.
 struct SelectRows {
   int lanes = kMaxSumLanes;
-  std::span<std::int16_t> sums;   // lanes + sum_slots x sum_stride
-  std::span<std::int16_t> best;   // winner of a left pixel, or the reason why it has no disparity
+  std::span<std::int16_t> sums;  // lanes + sum_slots x sum_stride
+  std::span<std::int16_t>
+      first;  // first candidate whose sum is near to a left pixel's least; negative: none to be found
+  std::span<std::int16_t> last;   // and the last
   std::span<std::int16_t> near;   // kNearSums of every left pixel
   std::span<std::int32_t> right;  // winner of a right pixel
 
@@ -130,28 +130,31 @@ HWY_INLINE std::uint64_t bits_above(D d, const std::int16_t* sums, int count, hn
   return bits;
 }
 
-// First and last candidate whose sum is at most `limit`; there is one.
+// First and last candidate whose sum is at most the limit; there is one.
 struct Candidates {
   int first;
   int last;
 };
 
 template <class D>
-HWY_INLINE Candidates at_most(D d, const std::int16_t* sums, int disparities, std::int16_t limit) {
-  const auto limits = hn::Set(d, limit);
+HWY_INLINE Candidates at_most(D d, const std::int16_t* sums, int disparities, hn::Vec<D> limit) {
+  const auto lowest = [](std::uint64_t bits) { return static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(bits)); };
+  const auto highest = [](std::uint64_t bits) {
+    return 63 - static_cast<int>(hwy::Num0BitsAboveMS1Bit_Nonzero64(bits));
+  };
   if (disparities == 64) {
-    const std::uint64_t bits = ~bits_above(d, sums, 64, limits);
-    return {std::countr_zero(bits), 63 - std::countl_zero(bits)};
+    const std::uint64_t bits = ~bits_above(d, sums, 64, limit);
+    return {lowest(bits), highest(bits)};
   }
   Candidates found{-1, 0};
   for (int word = 0; word < disparities; word += 64) {
     const int rest = disparities - word;
     const std::uint64_t bits = rest >= 64
-                                   ? ~bits_above(d, sums + word, 64, limits)
-                                   : bits_above(d, sums + word, rest, limits) ^ ((std::uint64_t{1} << rest) - 1);
+                                   ? ~bits_above(d, sums + word, 64, limit)
+                                   : bits_above(d, sums + word, rest, limit) ^ ((std::uint64_t{1} << rest) - 1);
     if (bits == 0) continue;
-    if (found.first < 0) found.first = word + std::countr_zero(bits);
-    found.last = word + 63 - std::countl_zero(bits);
+    if (found.first < 0) found.first = word + lowest(bits);
+    found.last = word + highest(bits);
   }
   return found;
 }
@@ -161,22 +164,23 @@ template <class D, int kDisparities>
 class Selection {
  public:
   Selection(const SearchRange& range, const SelectParams& params, const SelectRows& rows)
-      : range_(range), p_(params), rows_(rows), reciprocal_((std::uint64_t{1} << 32) / divisor() + 1) {}
+      : range_(range), p_(params), rows_(rows) {}
 
-  // Winners, uniqueness and the sums around the winner of left pixels [begin, end) of one step; `sums` of the first,
-  // `least`: a vector per pixel, of which the smallest is the smallest sum.
+  // The near candidates of left pixels [begin, end) of one step; `sums` of the first, `least`: a vector per pixel, of which
+  // the smallest is the smallest sum.
   void select_left(int begin, int end, const std::int16_t* sums, const std::int16_t* least) const {
     // Those whose candidates are all in the right image lie together.
     const int inside_begin = std::clamp(range_.valid_begin + range_.first + range_.disparities - 1, begin, end);
     const int inside_end = std::clamp(range_.valid_end + range_.first, inside_begin, end);
     const std::ptrdiff_t stride = sum_stride(range_.disparities, rows_.lanes);
-    const auto select = [&](auto inside, int from, int to) {
-      select_run<decltype(inside)::value>(from, to, sums + (from - begin) * stride,
-                                          least + (from - begin) * rows_.lanes);
-    };
-    select(std::false_type{}, begin, inside_begin);
-    select(std::true_type{}, inside_begin, inside_end);
-    select(std::false_type{}, inside_end, end);
+    alignas(64) std::int32_t smallest[kPixelsPerStep] = {};
+    alignas(64) std::int32_t limits[kPixelsPerStep];
+    set_limits(least, end - begin, smallest, limits);
+    select_run<false>(begin, inside_begin, sums, smallest, limits);
+    int done = inside_begin - begin;
+    select_run<true>(inside_begin, inside_end, sums + done * stride, smallest + done, limits + done);
+    done = inside_end - begin;
+    select_run<false>(inside_end, end, sums + done * stride, smallest + done, limits + done);
   }
 
   // Winners of the right pixels [begin, begin + Lanes(d)).
@@ -215,51 +219,65 @@ class Selection {
 
  private:
   int disparities() const { return kDisparities != 0 ? kDisparities : range_.disparities; }
-  std::uint32_t divisor() const { return static_cast<std::uint32_t>(100 - p_.uniqueness_percent); }
+
+  // The least sum of `count` pixels and the limit up to which a sum is near to it: the largest S with
+  // S (100 - uniqueness) < 100 least, or the least itself. Biased, in both halves of 32 bits.
+  void set_limits(const std::int16_t* least, int count, std::int32_t* smallest, std::int32_t* limits) const {
+    const D d;
+    const hn::CappedTag<std::int32_t, kPixelsPerStep> d32;
+    const hn::RebindToFloat<decltype(d32)> df;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    for (int k = 0; k < count; ++k)
+      smallest[k] = least_sum(d, hn::LoadU(d, least + k * lanes));
+    const auto share = hn::Set(df, static_cast<float>(100 - p_.uniqueness_percent));
+    const auto bias = hn::Set(d32, kSumBias);
+    const auto low_half = hn::Set(d32, 0xFFFF);
+    for (int k = 0; k < count; k += static_cast<int>(hn::Lanes(d32))) {
+      const auto sum = hn::LoadU(d32, smallest + k);
+      // Below 2^23, so a float is exact; a quotient up to 65536 differs from the next whole number by 1/100 at least, its
+      // rounding by 1/512 at most.
+      const auto dividend = hn::Sub(hn::Mul(sum, hn::Set(d32, 100)), hn::Set(d32, 1));
+      const auto quotient = hn::ConvertTo(d32, hn::Floor(hn::Div(hn::ConvertTo(df, dividend), share)));
+      const auto limit = hn::Max(hn::Min(quotient, hn::Set(d32, 65534)), sum);
+      const auto twice = [&](auto v) HWY_ATTR {
+        const auto biased = hn::And(hn::Xor(v, bias), low_half);
+        return hn::Or(biased, hn::ShiftLeft<16>(biased));
+      };
+      hn::StoreU(twice(limit), d32, limits + k);
+      hn::StoreU(twice(sum), d32, smallest + k);
+    }
+  }
 
   // kInside: every candidate of the pixels is in the right image.
   template <bool kInside>
-  void select_run(int begin, int end, const std::int16_t* sums, const std::int16_t* least) const {
+  HWY_INLINE void select_run(int begin, int end, const std::int16_t* sums, const std::int32_t* smallest,
+                             const std::int32_t* limits) const {
     const D d;
+    const hn::Repartition<std::int32_t, D> d32;
+    const hn::FixedTag<std::int16_t, kNearSums> near_d;
     const int disparities = this->disparities();
-    const int lanes = static_cast<int>(hn::Lanes(d));
-    const std::ptrdiff_t stride = sum_stride(disparities, lanes);
-    const std::uint64_t reciprocal = reciprocal_;
+    const std::ptrdiff_t stride = sum_stride(disparities, static_cast<int>(hn::Lanes(d)));
     const SearchRange range = range_;
-    const bool every_winner = p_.uniqueness_percent == 0;
-    std::int16_t* HWY_RESTRICT best = rows_.best.data();
-    std::int16_t* HWY_RESTRICT near_sums = rows_.near.data();
-    for (int u = begin; u < end; ++u, sums += stride, least += lanes) {
-      const int sum = least_sum(d, hn::LoadU(d, least));
-      // The largest S with S (100 - uniqueness) < 100 sum. Exact: the dividend is below 2^23, the divisor at most 100,
-      // their product below 2^32. (Of a sum of 0 none is.)
-      const auto quotient =
-          static_cast<int>((static_cast<std::uint64_t>(100 * sum - (sum > 0)) * reciprocal) >> 32);
-      const int limit = std::clamp(quotient, sum, 65534);
-      const Candidates near = at_most(d, sums, disparities, static_cast<std::int16_t>(limit - kSumBias));
-      // The winner is among them; with its two neighbours it spans at most three. No branch before the end: what the
-      // images hold would be guessed wrong too often.
-      const int a = sums[near.first];
-      const int b = sums[near.first + 1];  // the padding, when there is none
-      const int c = sums[near.first + 2];
-      int winner = near.first + (c < std::min(a, b) ? 2 : (b < a ? 1 : 0));
-      const bool unique = (std::max(near.last - winner, winner - near.first) <= 1) | (sum == 0) | every_winner;
-      int found = unique ? winner : kNotUnique;
+    std::int16_t* HWY_RESTRICT first = rows_.first.data();
+    std::int16_t* HWY_RESTRICT last = rows_.last.data();
+    std::int16_t* HWY_RESTRICT near_sums = rows_.near.data() + kNearSums * static_cast<std::ptrdiff_t>(begin);
+    for (int u = begin; u < end; ++u, sums += stride, near_sums += kNearSums) {
+      const Candidates near = at_most(d, sums, disparities, hn::BitCast(d, hn::Set(d32, *limits++)));
+      int found = near.first;
       if (!kInside) {
-        winner = at_most(d, sums, disparities, static_cast<std::int16_t>(sum - kSumBias)).first;
+        const int winner = at_most(d, sums, disparities, hn::BitCast(d, hn::Set(d32, *smallest++))).first;
         const int column = u - range.first - winner;
-        if (column < range.valid_begin || column >= range.valid_end) found = kNotSearched;
+        if (column < range.valid_begin || column >= range.valid_end) found = -1;
       }
-      best[u] = static_cast<std::int16_t>(found);
-      std::memcpy(near_sums + kNearSums * static_cast<std::ptrdiff_t>(u), sums + (winner - 1),
-                  kNearSums * sizeof(std::int16_t));
+      first[u] = static_cast<std::int16_t>(found);
+      last[u] = static_cast<std::int16_t>(near.last);
+      hn::StoreU(hn::LoadU(near_d, sums + (near.first - 1)), near_d, near_sums);
     }
   }
 
   SearchRange range_;
   SelectParams p_;
   SelectRows rows_;
-  std::uint64_t reciprocal_;
 };
 
 }  // namespace HWY_NAMESPACE
