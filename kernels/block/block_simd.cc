@@ -94,6 +94,14 @@ class Band {
  private:
   using V = hn::Vec<D>;
 
+  // Pairs of vectors that are dealt with at once, as many as there are registers for; and whether those are all.
+  static constexpr int kPairs = kDisparities == 64 && hn::MaxLanes(D()) <= 16 ? 2 : 1;
+#if HWY_HAVE_SCALABLE
+  static constexpr bool kOnce = false;  // vectors may be shorter than MaxLanes
+#else
+  static constexpr bool kOnce = kDisparities == 2 * kPairs * static_cast<int>(hn::MaxLanes(D()));
+#endif
+
   // Pixels side by side whose windows change alike.
   struct Run {
     int x;                       // the column that enters the first one's window
@@ -101,11 +109,14 @@ class Band {
     const std::int16_t* before;  // sums of the pixel before the first one
     const std::int16_t* leaves;  // the column that leaves the first one's window
     std::ptrdiff_t leaves_step;
-    std::int16_t* sums;   // of the first
-    std::int16_t* least;  // the least of a pixel's sums, per lane
+    std::int16_t* sums;      // of the first
+    std::int32_t* smallest;  // the least sum of a pixel
+    std::int16_t* least;     // and before it is that, the least per lane, for all pixels
   };
 
-  int disparities() const { return kDisparities != 0 ? kDisparities : range_.disparities; }
+  int disparities() const {
+    return kDisparities != 0 ? kDisparities : range_.disparities;
+  }
 
   std::int16_t* column(int x) const {
     return rows_.columns.data() + static_cast<std::ptrdiff_t>(x) * disparities();
@@ -155,61 +166,87 @@ class Band {
     }
   }
 
-  // Two vectors of candidates, from i on: their window slides through the pixels in registers, and the columns that
-  // enter advance first.
-  template <Enters kEnters, bool kFirst>
+  // Two vectors of candidates of the k-th pixel: their window slides by one, and the column that enters advances first.
+  template <Enters kEnters, class Costs>
+  static HWY_INLINE void slide_pair(const Costs& costs, std::ptrdiff_t k, std::ptrdiff_t disparities,
+                                    const std::int16_t* leaves, std::int16_t* enters, std::int16_t* to, V& low,
+                                    V& high) {
+    const D d;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    low = hn::Sub(low, hn::LoadU(d, leaves));
+    high = hn::Sub(high, hn::LoadU(d, leaves + lanes));
+    if (kEnters != Enters::nothing) {
+      V column_low;
+      V column_high;
+      costs.delta(k, disparities, column_low, column_high);
+      column_low = hn::Add(column_low, hn::LoadU(d, enters));
+      column_high = hn::Add(column_high, hn::LoadU(d, enters + lanes));
+      hn::StoreU(column_low, d, enters);
+      hn::StoreU(column_high, d, enters + lanes);
+      low = hn::Add(low, column_low);
+      high = hn::Add(high, column_high);
+    }
+    hn::StoreU(low, d, to);
+    hn::StoreU(high, d, to + lanes);
+  }
+
+  // kPairs x 2 vectors of candidates, from i on, stay in registers from pixel to pixel.
+  template <Enters kEnters>
   HWY_INLINE void slide(const Run& run, int i) const {
+    using Costs = typename Delta::template Columns<kEnters == Enters::border>;
     const D d;
     const int lanes = static_cast<int>(hn::Lanes(d));
     const std::ptrdiff_t disparities = this->disparities();
     const std::ptrdiff_t stride = sum_stride(this->disparities(), lanes);
     const std::ptrdiff_t leaves_step = run.leaves_step;
     const int count = run.count;
-    const typename Delta::template Columns<kEnters == Enters::border> costs(delta_, run.x, i);
+    const int second = kPairs == 2 ? 2 * lanes : 0;
+    const Costs costs(delta_, run.x, i);
+    const Costs costs2(delta_, run.x, i + second);
     std::int16_t* enters = column(run.x) + i;
     const std::int16_t* leaves = run.leaves + i;
     std::int16_t* to = run.sums + i;
     std::int16_t* least = run.least;
+    std::int32_t* smallest = run.smallest;
     V low = hn::LoadU(d, run.before + i);
     V high = hn::LoadU(d, run.before + i + lanes);
+    V low2 = hn::LoadU(d, run.before + i + second);
+    V high2 = hn::LoadU(d, run.before + i + second + lanes);
     for (int k = 0; k < count; ++k) {
-      low = hn::Sub(low, hn::LoadU(d, leaves));
-      high = hn::Sub(high, hn::LoadU(d, leaves + lanes));
-      if (kEnters != Enters::nothing) {
-        V column_low;
-        V column_high;
-        costs.delta(k, disparities, column_low, column_high);
-        column_low = hn::Add(column_low, hn::LoadU(d, enters));
-        column_high = hn::Add(column_high, hn::LoadU(d, enters + lanes));
-        hn::StoreU(column_low, d, enters);
-        hn::StoreU(column_high, d, enters + lanes);
-        low = hn::Add(low, column_low);
-        high = hn::Add(high, column_high);
-      }
-      hn::StoreU(low, d, to);
-      hn::StoreU(high, d, to + lanes);
+      slide_pair<kEnters>(costs, k, disparities, leaves, enters, to, low, high);
       V lowest = hn::Min(low, high);
-      if (!kFirst) lowest = hn::Min(lowest, hn::LoadU(d, least));
-      hn::StoreU(lowest, d, least);
+      if (kPairs == 2) {
+        slide_pair<kEnters>(costs2, k, disparities, leaves + second, enters + second, to + second, low2, high2);
+        lowest = hn::Min(lowest, hn::Min(low2, high2));
+      }
+      if (kOnce) {
+        *smallest++ = least_sum(d, lowest);
+      } else {
+        hn::StoreU(hn::Min(lowest, hn::LoadU(d, least)), d, least);
+        least += lanes;
+      }
       enters += disparities;
       leaves += leaves_step;
       to += stride;
-      least += lanes;
     }
   }
 
   template <Enters kEnters>
   void slide_all(const Run& run) const {
-    slide<kEnters, true>(run, 0);
-    const int pair = 2 * static_cast<int>(hn::Lanes(D()));
-    for (int i = pair; i < disparities(); i += pair)
-      slide<kEnters, false>(run, i);
+    if (kOnce) return slide<kEnters>(run, 0);
+    const D d;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    std::fill_n(run.least, run.count * lanes, kSumPadding);
+    for (int i = 0; i < disparities(); i += kPairs * 2 * lanes)
+      slide<kEnters>(run, i);
+    for (int k = 0; k < run.count; ++k)
+      run.smallest[k] = least_sum(d, hn::LoadU(d, run.least + k * lanes));
   }
 
-  // Sums of pixels [u, end), from slot `slot` on.
-  void slide_to(int u, int end, int slot, std::int16_t* least) const {
+  // Sums of pixels [u, end), from slot `slot` on, and the smallest of each.
+  void slide_to(int u, int end, int slot, std::int32_t* smallest) const {
+    alignas(64) std::int16_t least[kPixelsPerStep * kMaxSumLanes];
     const int radius = c_.params.radius_u;
-    const int lanes = static_cast<int>(hn::Lanes(D()));
     const int slots = sum_slots(range_.disparities);
     const std::int16_t* before = rows_.select.slot(range_.disparities, slot == 0 ? slots - 1 : slot - 1);
     while (u < end) {
@@ -222,7 +259,7 @@ class Band {
       std::int16_t* sums = rows_.select.slot(range_.disparities, slot);
       const Run run{
           x,    stop - u, before, leaves_any ? column(leaves) : rows_.zero.data(), leaves_any ? disparities() : 0,
-          sums, least};
+          sums, smallest, least};
       switch (enters) {
         case Enters::nothing:
           slide_all<Enters::nothing>(run);
@@ -235,7 +272,7 @@ class Band {
           break;
       }
       slot += stop - u;
-      least += (stop - u) * lanes;
+      smallest += stop - u;
       before = rows_.select.slot(range_.disparities, slot - 1);
       u = stop;
     }
@@ -249,18 +286,18 @@ class Band {
     const int lanes = static_cast<int>(hn::Lanes(D()));
     const int radius = c_.params.radius_u;
     const int slots = sum_slots(range_.disparities);
-    alignas(64) std::int16_t least[kPixelsPerStep * kMaxSumLanes];
+    alignas(64) std::int32_t smallest[kPixelsPerStep] = {};
     // Columns of the first window but its last: as if there were pixels before the first one.
     std::fill_n(rows_.select.slot(range_.disparities, slots - radius - 1), disparities(),
                 static_cast<std::int16_t>(-kSumBias));
-    slide_to(range_.valid_begin - radius, range_.valid_begin, slots - radius, least);
+    slide_to(range_.valid_begin - radius, range_.valid_begin, slots - radius, smallest);
 
     int right = range_.valid_begin;
     int slot = 0;
     for (int u = range_.valid_begin; u < range_.valid_end; u += kPixelsPerStep) {
       const int stop = std::min(u + kPixelsPerStep, range_.valid_end);
-      slide_to(u, stop, slot, least);
-      select_.select_left(u, stop, rows_.select.slot(range_.disparities, slot), least);
+      slide_to(u, stop, slot, smallest);
+      select_.select_left(u, stop, rows_.select.slot(range_.disparities, slot), smallest);
       slot = slot + kPixelsPerStep == slots ? 0 : slot + kPixelsPerStep;
       if (c_.params.select.left_right_max < 0) continue;
       for (; right < range_.valid_end; right += lanes) {

@@ -54,7 +54,6 @@ class HammingDelta {
   HammingDelta(const BlockCall<CensusTraits>& call, const CensusRows& rows)
       : call_(call), rows_(rows), place_(call.params.range) {
     std::fill(rows.zero.begin(), rows.zero.end(), std::uint8_t{0});
-    std::fill(rows.ring.begin(), rows.ring.end(), std::uint8_t{0});
     for (std::size_t j = 0; j < rows.inside.size(); ++j) {
       const bool inside = place_.inside(static_cast<int>(j));
       rows.inside[j] = static_cast<std::uint8_t>(inside ? 255 : 0);
@@ -63,9 +62,11 @@ class HammingDelta {
   }
 
   // Row `enters` comes into the window, row `leaves` goes; -1 for none. `turn` counts the calls.
-  void set_rows(int enters, int /*leaves*/, int turn) {
+  void set_rows(int enters, int leaves, int turn) {
     const std::size_t row = rows_.ring.size() / static_cast<std::size_t>(window_rows(call_.params.radius_v));
     ring_ = rows_.ring.data() + static_cast<std::size_t>(turn % window_rows(call_.params.radius_v)) * row;
+    leaves_ = leaves < 0 ? rows_.zero.data() : ring_;
+    leaves_step_ = leaves < 0 ? 0 : place_.disparities;
     left_ = reinterpret_cast<const CensusCode*>(rows_.zero.data());
     outside_ = rows_.zero.data();
     planes_.fill(rows_.zero.data());
@@ -92,6 +93,8 @@ class HammingDelta {
           plane2_(h.planes_[2] + h.place_.of_column(x) + i),
           plane3_(h.planes_[3] + h.place_.of_column(x) + i),
           costs_(h.ring_ + static_cast<std::ptrdiff_t>(x) * h.place_.disparities + i),
+          leaves_(h.leaves_ + x * h.leaves_step_ + i),
+          leaves_step_(h.leaves_step_),
           inside_(h.rows_.inside.data() + h.place_.of_column(x) + i),
           outside_(h.outside_ + h.place_.of_column(x) + i) {}
 
@@ -102,7 +105,7 @@ class HammingDelta {
       auto cost = hn::Add(hn::Add(distance(code & 15, plane0_ - k), distance(code >> 4 & 15, plane1_ - k)),
                           hn::Add(distance(code >> 8 & 15, plane2_ - k), distance(code >> 12, plane3_ - k)));
       if (kBorder) cost = hn::Or(hn::And(cost, hn::LoadU(d8, inside_ - k)), hn::LoadU(d8, outside_ - k));
-      const auto old = hn::LoadU(d8, costs_ + k * disparities);
+      const auto old = hn::LoadU(d8, leaves_ + k * leaves_step_);
       hn::StoreU(cost, d8, costs_ + k * disparities);
       const hn::Repartition<std::int8_t, D> di8;
       const hn::Rebind<std::int8_t, D> half;
@@ -123,6 +126,8 @@ class HammingDelta {
     const std::uint8_t* plane2_;
     const std::uint8_t* plane3_;
     std::uint8_t* costs_;
+    const std::uint8_t* leaves_;
+    std::ptrdiff_t leaves_step_;
     const std::uint8_t* inside_;
     const std::uint8_t* outside_;
   };
@@ -161,6 +166,8 @@ class HammingDelta {
   const CensusCode* left_ = nullptr;
   const std::uint8_t* outside_ = nullptr;
   std::uint8_t* ring_ = nullptr;
+  const std::uint8_t* leaves_ = nullptr;  // the costs that go; none: zeros
+  std::ptrdiff_t leaves_step_ = 0;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -166,16 +166,15 @@ class Selection {
   Selection(const SearchRange& range, const SelectParams& params, const SelectRows& rows)
       : range_(range), p_(params), rows_(rows) {}
 
-  // The near candidates of left pixels [begin, end) of one step; `sums` of the first, `least`: a vector per pixel, of which
-  // the smallest is the smallest sum.
-  void select_left(int begin, int end, const std::int16_t* sums, const std::int16_t* least) const {
+  // The near candidates of left pixels [begin, end) of one step; `sums` of the first, `smallest`: the
+  // smallest sum of each, kPixelsPerStep of them.
+  void select_left(int begin, int end, const std::int16_t* sums, std::int32_t* smallest) const {
     // Those whose candidates are all in the right image lie together.
     const int inside_begin = std::clamp(range_.valid_begin + range_.first + range_.disparities - 1, begin, end);
     const int inside_end = std::clamp(range_.valid_end + range_.first, inside_begin, end);
     const std::ptrdiff_t stride = sum_stride(range_.disparities, rows_.lanes);
-    alignas(64) std::int32_t smallest[kPixelsPerStep] = {};
     alignas(64) std::int32_t limits[kPixelsPerStep];
-    set_limits(least, end - begin, smallest, limits);
+    set_limits(end - begin, smallest, limits);
     select_run<false>(begin, inside_begin, sums, smallest, limits);
     int done = inside_begin - begin;
     select_run<true>(inside_begin, inside_end, sums + done * stride, smallest + done, limits + done);
@@ -220,15 +219,11 @@ class Selection {
  private:
   int disparities() const { return kDisparities != 0 ? kDisparities : range_.disparities; }
 
-  // The least sum of `count` pixels and the limit up to which a sum is near to it: the largest S with
-  // S (100 - uniqueness) < 100 least, or the least itself. Biased, in both halves of 32 bits.
-  void set_limits(const std::int16_t* least, int count, std::int32_t* smallest, std::int32_t* limits) const {
-    const D d;
+  // The limits up to which a sum is near to the smallest of its pixel: the largest S with
+  // S (100 - uniqueness) < 100 smallest, or the smallest itself. Both biased, in both halves of 32 bits.
+  void set_limits(int count, std::int32_t* smallest, std::int32_t* limits) const {
     const hn::CappedTag<std::int32_t, kPixelsPerStep> d32;
     const hn::RebindToFloat<decltype(d32)> df;
-    const int lanes = static_cast<int>(hn::Lanes(d));
-    for (int k = 0; k < count; ++k)
-      smallest[k] = least_sum(d, hn::LoadU(d, least + k * lanes));
     const auto share = hn::Set(df, static_cast<float>(100 - p_.uniqueness_percent));
     const auto bias = hn::Set(d32, kSumBias);
     const auto low_half = hn::Set(d32, 0xFFFF);
@@ -237,7 +232,7 @@ class Selection {
       // Below 2^23, so a float is exact; a quotient up to 65536 differs from the next whole number by 1/100 at least, its
       // rounding by 1/512 at most.
       const auto dividend = hn::Sub(hn::Mul(sum, hn::Set(d32, 100)), hn::Set(d32, 1));
-      const auto quotient = hn::ConvertTo(d32, hn::Floor(hn::Div(hn::ConvertTo(df, dividend), share)));
+      const auto quotient = hn::ConvertTo(d32, hn::Div(hn::ConvertTo(df, dividend), share));
       const auto limit = hn::Max(hn::Min(quotient, hn::Set(d32, 65534)), sum);
       const auto twice = [&](auto v) HWY_ATTR {
         const auto biased = hn::And(hn::Xor(v, bias), low_half);
