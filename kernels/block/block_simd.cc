@@ -28,6 +28,7 @@ namespace lakshya {
 struct BlockSimdRows {
   std::span<std::int16_t> columns;  // costs of the window's rows added up, per column
   std::span<std::int16_t> zero;     // a column of no rows
+  std::span<std::int16_t> ordinal;  // what a column starts with, so that sums come out with their pixel's ordinal
   SelectRows select;
 
   static BlockSimdRows lay_out(int width, int disparities, ScratchLayout& scratch) {
@@ -36,7 +37,8 @@ struct BlockSimdRows {
     BlockSimdRows r;
     r.columns = scratch.take<std::int16_t>(columns * candidates);
     r.zero = scratch.take<std::int16_t>(candidates);
-    r.select.sums = scratch.take<std::int16_t>(kMaxSumLanes +
+    r.ordinal = scratch.take<std::int16_t>(columns + kMaxBlockRadius);
+    r.select.sums = scratch.take<std::int16_t>(2 * kMaxSumLanes +
                                                static_cast<std::size_t>(sum_slots(disparities)) *
                                                    static_cast<std::size_t>(sum_stride(disparities, kMaxSumLanes)));
     r.select.first = scratch.take<std::int16_t>(columns + kMaxSumLanes);
@@ -60,7 +62,8 @@ enum class Enters { nothing, border, whole };
 
 // Delta: the costs, of what enters minus what leaves.
 // kDisparities: their number, if it is a usual one, for loops of a constant length; or 0.
-template <class D, class Delta, class Traits, int kDisparities>
+// kBits: kOrdinalBits, or 0.
+template <class D, class Delta, class Traits, int kDisparities, int kBits>
 class Band {
  public:
   Band(const BlockCall<Traits>& call, const BlockSimdRows& rows, Delta& delta)
@@ -69,8 +72,8 @@ class Band {
         rows_(rows),
         delta_(delta),
         select_(range_, call.params.select, rows.select),
-        finish_(range_, call.params.select, rows.select) {
-    std::fill(rows.columns.begin(), rows.columns.end(), std::int16_t{0});
+        finish_(range_, call.params.select, rows.select, 1 << kBits) {
+    start_columns();
     std::fill(rows.zero.begin(), rows.zero.end(), std::int16_t{0});
     std::fill(rows.select.sums.begin(), rows.select.sums.end(), kSumPadding);
   }
@@ -117,6 +120,28 @@ class Band {
   int disparities() const {
     return kDisparities != 0 ? kDisparities : range_.disparities;
   }
+  static int ordinal(int u) {
+    return u & ((1 << kBits) - 1);
+  }
+
+  // What enters with a column less what leaves with another takes the sums from one pixel's ordinal to the next one's. The
+  // columns of the first pixel's window but its last have none, for sums that start with the ordinal of the pixel before.
+  void start_columns() const {
+    const int diameter = 2 * c_.params.radius_u + 1;
+    const int end = range_.valid_end - range_.valid_begin + c_.params.radius_u;
+    std::int16_t* ordinals = rows_.ordinal.data() + range_.valid_begin;
+    for (int x = 0; x < end; ++x) {
+      const int u = x - c_.params.radius_u;
+      const int left = x < diameter ? 0 : ordinals[x - diameter];
+      ordinals[x] = static_cast<std::int16_t>(u < 0 ? 0 : left + ordinal(u) - ordinal(u - 1));
+    }
+    for (int x = range_.valid_begin; x < range_.valid_end; ++x)
+      std::fill_n(column(x), disparities(), rows_.ordinal[static_cast<std::size_t>(x)]);
+  }
+
+  static HWY_INLINE V scaled(V v) {
+    return kBits == 0 ? v : hn::ShiftLeft<kBits>(v);
+  }
 
   std::int16_t* column(int x) const {
     return rows_.columns.data() + static_cast<std::ptrdiff_t>(x) * disparities();
@@ -148,8 +173,8 @@ class Band {
         V low;
         V high;
         costs.delta(k, disparities, low, high);
-        hn::StoreU(hn::Add(hn::LoadU(d, sums), low), d, sums);
-        hn::StoreU(hn::Add(hn::LoadU(d, sums + lanes), high), d, sums + lanes);
+        hn::StoreU(hn::Add(hn::LoadU(d, sums), scaled(low)), d, sums);
+        hn::StoreU(hn::Add(hn::LoadU(d, sums + lanes), scaled(high)), d, sums + lanes);
       }
     }
   }
@@ -169,8 +194,8 @@ class Band {
   // Two vectors of candidates of the k-th pixel: their window slides by one, and the column that enters advances first.
   template <Enters kEnters, class Costs>
   static HWY_INLINE void slide_pair(const Costs& costs, std::ptrdiff_t k, std::ptrdiff_t disparities,
-                                    const std::int16_t* leaves, std::int16_t* enters, std::int16_t* to, V& low,
-                                    V& high) {
+                                    const std::int16_t* leaves, std::int16_t* enters, const std::int16_t* ordinal,
+                                    std::int16_t* to, V& low, V& high) {
     const D d;
     const int lanes = static_cast<int>(hn::Lanes(d));
     low = hn::Sub(low, hn::LoadU(d, leaves));
@@ -179,12 +204,15 @@ class Band {
       V column_low;
       V column_high;
       costs.delta(k, disparities, column_low, column_high);
-      column_low = hn::Add(column_low, hn::LoadU(d, enters));
-      column_high = hn::Add(column_high, hn::LoadU(d, enters + lanes));
+      column_low = hn::Add(scaled(column_low), hn::LoadU(d, enters));
+      column_high = hn::Add(scaled(column_high), hn::LoadU(d, enters + lanes));
       hn::StoreU(column_low, d, enters);
       hn::StoreU(column_high, d, enters + lanes);
       low = hn::Add(low, column_low);
       high = hn::Add(high, column_high);
+    } else if (kBits != 0) {
+      low = hn::Add(low, hn::Set(d, *ordinal));
+      high = hn::Add(high, hn::Set(d, *ordinal));
     }
     hn::StoreU(low, d, to);
     hn::StoreU(high, d, to + lanes);
@@ -205,6 +233,7 @@ class Band {
     const Costs costs2(delta_, run.x, i + second);
     std::int16_t* enters = column(run.x) + i;
     const std::int16_t* leaves = run.leaves + i;
+    const std::int16_t* ordinal = rows_.ordinal.data() + run.x;
     std::int16_t* to = run.sums + i;
     std::int16_t* least = run.least;
     std::int32_t* smallest = run.smallest;
@@ -213,10 +242,11 @@ class Band {
     V low2 = hn::LoadU(d, run.before + i + second);
     V high2 = hn::LoadU(d, run.before + i + second + lanes);
     for (int k = 0; k < count; ++k) {
-      slide_pair<kEnters>(costs, k, disparities, leaves, enters, to, low, high);
+      slide_pair<kEnters>(costs, k, disparities, leaves, enters, ordinal + k, to, low, high);
       V lowest = hn::Min(low, high);
       if (kPairs == 2) {
-        slide_pair<kEnters>(costs2, k, disparities, leaves + second, enters + second, to + second, low2, high2);
+        slide_pair<kEnters>(costs2, k, disparities, leaves + second, enters + second, ordinal + k, to + second,
+                            low2, high2);
         lowest = hn::Min(lowest, hn::Min(low2, high2));
       }
       if (kOnce) {
@@ -289,17 +319,20 @@ class Band {
     alignas(64) std::int32_t smallest[kPixelsPerStep] = {};
     // Columns of the first window but its last: as if there were pixels before the first one.
     std::fill_n(rows_.select.slot(range_.disparities, slots - radius - 1), disparities(),
-                static_cast<std::int16_t>(-kSumBias));
+                static_cast<std::int16_t>(ordinal(-1) - kSumBias));
     slide_to(range_.valid_begin - radius, range_.valid_begin, slots - radius, smallest);
 
     int right = range_.valid_begin;
     int slot = 0;
-    for (int u = range_.valid_begin; u < range_.valid_end; u += kPixelsPerStep) {
+    for (int u = range_.valid_begin; u < range_.valid_end;
+         u += kPixelsPerStep, slot = (slot + kPixelsPerStep) % slots) {
       const int stop = std::min(u + kPixelsPerStep, range_.valid_end);
       slide_to(u, stop, slot, smallest);
       select_.select_left(u, stop, rows_.select.slot(range_.disparities, slot), smallest);
-      slot = slot + kPixelsPerStep == slots ? 0 : slot + kPixelsPerStep;
       if (c_.params.select.left_right_max < 0) continue;
+      // No sums of earlier rows in the last group.
+      for (int k = stop - u; k % (1 << kBits) != 0; ++k)
+        std::fill_n(rows_.select.slot(range_.disparities, slot + k), disparities(), kSumPadding);
       for (; right < range_.valid_end; right += lanes) {
         const int last = right + lanes - 1 + range_.first + range_.disparities - 1;
         if (last >= stop && stop < range_.valid_end) break;
@@ -313,18 +346,21 @@ class Band {
   SearchRange range_;
   BlockSimdRows rows_;
   Delta& delta_;
-  Selection<D, kDisparities> select_;
+  Selection<D, kDisparities, kBits> select_;
   Finish finish_;
 };
 
-template <class D, template <class> class Delta, class Traits, class CostRows>
+template <class D, int kDisparities, template <class> class Delta, class Traits, class CostRows>
 void match_rows(const BlockCall<Traits>& call, const Rows& matched, const BlockSimdRows& rows,
                 const CostRows& cost_rows) {
   BlockSimdRows kept = rows;
   kept.select.lanes = static_cast<int>(hn::Lanes(D()));
   Delta<D> delta(call, cost_rows);
-  if (call.params.range.disparities == 64) return Band<D, Delta<D>, Traits, 64>(call, kept, delta).run(matched);
-  Band<D, Delta<D>, Traits, 0>(call, kept, delta).run(matched);
+  const int pixels = (2 * call.params.radius_u + 1) * window_rows(call.params.radius_v);
+  if (pixels * Traits::largest(call.params) < 65536 / kOrdinals - 1) {
+    return Band<D, Delta<D>, Traits, kDisparities, kOrdinalBits>(call, kept, delta).run(matched);
+  }
+  Band<D, Delta<D>, Traits, kDisparities, 0>(call, kept, delta).run(matched);
 }
 
 // With the longest vectors that divide the candidates.
@@ -332,12 +368,14 @@ template <template <class> class Delta, class Traits, class CostRows>
 void match_band(const BlockCall<Traits>& call, const Rows& matched, const BlockSimdRows& rows,
                 const CostRows& cost_rows) {
   const int disparities = call.params.range.disparities;
-  if (disparities % 64 == 0) {
-    match_rows<hn::CappedTag<std::int16_t, 32>, Delta>(call, matched, rows, cost_rows);
+  if (disparities == 64) {
+    match_rows<hn::CappedTag<std::int16_t, 32>, 64, Delta>(call, matched, rows, cost_rows);
+  } else if (disparities % 64 == 0) {
+    match_rows<hn::CappedTag<std::int16_t, 32>, 0, Delta>(call, matched, rows, cost_rows);
   } else if (disparities % 32 == 0) {
-    match_rows<hn::CappedTag<std::int16_t, 16>, Delta>(call, matched, rows, cost_rows);
+    match_rows<hn::CappedTag<std::int16_t, 16>, 0, Delta>(call, matched, rows, cost_rows);
   } else {
-    match_rows<hn::CappedTag<std::int16_t, 8>, Delta>(call, matched, rows, cost_rows);
+    match_rows<hn::CappedTag<std::int16_t, 8>, 0, Delta>(call, matched, rows, cost_rows);
   }
 }
 

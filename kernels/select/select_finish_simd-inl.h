@@ -26,8 +26,9 @@ class Finish {
   using V = hn::Vec<Ints>;
 
  public:
-  Finish(const SearchRange& range, const SelectParams& params, const SelectRows& rows)
-      : range_(range), p_(params), rows_(rows) {}
+  // Of sums times `scale`, of which every pixel's have the same part below.
+  Finish(const SearchRange& range, const SelectParams& params, const SelectRows& rows, int scale)
+      : range_(range), p_(params), rows_(rows), scale_(scale) {}
 
   void row(const std::uint8_t* textured, std::int16_t* disparity) const {
     const int lanes = static_cast<int>(hn::Lanes(Ints()));
@@ -54,7 +55,7 @@ class Finish {
     const Ints d;
     const hn::RebindToFloat<Ints> df;
     const V curvature = hn::Sub(hn::Add(before, after), hn::Add(here, here));
-    const V denominator = hn::Max(curvature, hn::Set(d, 1));
+    const V denominator = hn::Max(curvature, hn::Set(d, scale_));
     const V dividend = hn::Add(hn::ShiftLeft<kDisparityBits>(hn::Sub(before, after)), denominator);
     const auto quotient =
         hn::Div(hn::ConvertTo(df, dividend), hn::ConvertTo(df, hn::Add(denominator, denominator)));
@@ -115,7 +116,7 @@ class Finish {
     }
     if (p_.uniqueness_percent != 0) {
       // No sum is less than 0.
-      const auto rivals = hn::And(hn::Gt(reach, hn::Set(d, 1)), hn::Gt(here, hn::Set(d, -kSumBias)));
+      const auto rivals = hn::And(hn::Gt(reach, hn::Set(d, 1)), hn::Gt(here, hn::Set(d, scale_ - 1 - kSumBias)));
       result = hn::IfThenElse(rivals, hn::Set(d, std::int32_t{kNotUnique}), result);
     }
     result = hn::IfThenElse(hn::Lt(first, zero), hn::Set(d, std::int32_t{kNotSearched}), result);
@@ -126,6 +127,7 @@ class Finish {
   SearchRange range_;
   SelectParams p_;
   SelectRows rows_;
+  int scale_;
 };
 
 }  // namespace HWY_NAMESPACE

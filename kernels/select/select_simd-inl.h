@@ -2,7 +2,9 @@
 // contiguous, one vector of candidates after the other.
 //
 // Sums are stored as int16, the uint16 sum minus 32768, because x86 compares signed lanes only. Before and after the
-// candidates of a pixel lie as many elements as a vector holds, kSumPadding, which never win.
+// candidates of a pixel lies kSumPadding, which never wins. Where they are small enough, the sums are multiplied by
+// kOrdinals, and a pixel's place among kOrdinals neighbours is added: of the sums of so many left pixels for one right pixel,
+// the least then says which pixel's it is.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -32,21 +34,25 @@ inline constexpr int kPixelsPerStep = 32;  // sums first, then winners: as many 
 // Sums that are kept of a pixel, from the one before the first near candidate on; five are looked at.
 inline constexpr int kNearSums = 8;
 
-// From one pixel's candidate 0 to the next one's: the padding after one is that before the other.
+inline constexpr int kOrdinalBits = 3;
+inline constexpr int kOrdinals = 1 << kOrdinalBits;
+
+// From one pixel's candidate 0 to the next one's: the padding after one is that before the other. At least a vector and
+// kOrdinals - 1 elements.
 constexpr int sum_stride(int disparities, int lanes) {
-  return disparities + lanes;
+  return disparities + 2 * lanes;
 }
 
 // Right pixels are searched a vector at a time, once the last left pixel that can match one of them is there. Whole steps,
 // so that the pixels of one lie side by side.
 constexpr int sum_slots(int disparities) {
-  return (disparities + kMaxSumLanes + 2 * kPixelsPerStep - 1) / kPixelsPerStep * kPixelsPerStep;
+  return (disparities + kMaxSumLanes + kOrdinals + 2 * kPixelsPerStep - 1) / kPixelsPerStep * kPixelsPerStep;
 }
 
 // Of one row. What belongs to pixels has room for a vector behind the last.
 struct SelectRows {
   int lanes = kMaxSumLanes;
-  std::span<std::int16_t> sums;  // lanes + sum_slots x sum_stride
+  std::span<std::int16_t> sums;  // 2 lanes + sum_slots x sum_stride
   std::span<std::int16_t>
       first;  // first candidate whose sum is near to a left pixel's least; negative: none to be found
   std::span<std::int16_t> last;   // and the last
@@ -56,7 +62,7 @@ struct SelectRows {
   std::int32_t* right_of(int u) const { return right.data() + u + 1; }
   // Candidate 0 of slot `index`; pixel u has slot (u - valid_begin) mod sum_slots.
   std::int16_t* slot(int disparities, int index) const {
-    return sums.data() + lanes + static_cast<std::ptrdiff_t>(index) * sum_stride(disparities, lanes);
+    return sums.data() + 2 * lanes + static_cast<std::ptrdiff_t>(index) * sum_stride(disparities, lanes);
   }
 };
 
@@ -159,8 +165,9 @@ HWY_INLINE Candidates at_most(D d, const std::int16_t* sums, int disparities, hn
   return found;
 }
 
-// kDisparities: their number, if it is a usual one, for loops of a constant length; or 0.
-template <class D, int kDisparities>
+// kDisparities: their number, if it is a usual one, for loops of a constant length; or 0. kBits: kOrdinalBits, or 0 where
+// the sums do not leave room for them.
+template <class D, int kDisparities, int kBits>
 class Selection {
  public:
   Selection(const SearchRange& range, const SelectParams& params, const SelectRows& rows)
@@ -184,33 +191,50 @@ class Selection {
 
   // Winners of the right pixels [begin, begin + Lanes(d)).
   void select_right(int begin) const {
+    constexpr int kGroup = 1 << kBits;
     const D d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    const int n = range_.disparities;
-    // Lane k is right pixel begin + lanes - 1 - k: so its candidates of one left pixel lie side by side.
-    const int candidate0 = begin + lanes - 1 + range_.first;  // u - candidate of lane 0
-    const int first = std::max(begin + range_.first, range_.valid_begin);
-    const int last = std::min(candidate0 + n - 1, range_.valid_end - 1);
+    const int n = disparities();
+    const std::ptrdiff_t step = sum_stride(n, lanes) + 1;
+    const int slots = sum_slots(n);
+    // Lane k is right pixel begin + lanes - 1 - k: so its candidates of one left pixel lie side by side. Left pixels are
+    // counted from the first valid one.
+    const int candidate0 = begin + lanes - 1 + range_.first - range_.valid_begin;  // pixel - candidate of lane 0
+    const int first = std::max(begin + range_.first - range_.valid_begin, 0) / kGroup * kGroup;
+    const int end = std::min(candidate0 + n, range_.valid_end - range_.valid_begin);
     auto best = hn::Set(d, kSumPadding);
     auto winner = hn::Zero(d);
-    auto candidate = hn::Add(hn::Iota(d, 0), hn::Set(d, static_cast<std::int16_t>(first - candidate0)));
-    const auto one = hn::Set(d, std::int16_t{1});
-    const int stride = sum_stride(n, rows_.lanes);
-    const int slots = sum_slots(n);
-    for (int u = first; u <= last;) {
-      // As far as the ring goes on.
-      const int slot = (u - range_.valid_begin) % slots;
-      const int run = std::min(last + 1 - u, slots - slot);
+    // A group may begin before the first candidate; winners are counted from where none begins.
+    constexpr int kBefore = kMaxSumLanes + kOrdinals;
+    auto candidate = hn::Set(d, static_cast<std::int16_t>(first - candidate0 + kBefore));
+    const auto next = hn::Set(d, std::int16_t{kGroup});
+    for (int u = first; u < end;) {
+      // As far as the ring goes on. Pixels of a group that cannot match find padding.
+      const int slot = u % slots;
+      const int stop = std::min(end, u + slots - slot);
       const std::int16_t* sums = rows_.slot(n, slot) + (u - candidate0);
-      for (int k = 0; k < run; ++k, sums += stride + 1) {
-        const auto s = hn::LoadU(d, sums);
+      for (; u < stop; u += kGroup, sums += kGroup * step) {
+        auto s = hn::LoadU(d, sums);
+        if (kBits == 3) {
+          const auto s01 = hn::Min(s, hn::LoadU(d, sums + step));
+          const auto s23 = hn::Min(hn::LoadU(d, sums + 2 * step), hn::LoadU(d, sums + 3 * step));
+          const auto s45 = hn::Min(hn::LoadU(d, sums + 4 * step), hn::LoadU(d, sums + 5 * step));
+          const auto s67 = hn::Min(hn::LoadU(d, sums + 6 * step), hn::LoadU(d, sums + 7 * step));
+          s = hn::Min(hn::Min(s01, s23), hn::Min(s45, s67));
+        }
+        auto of_group = candidate;
+        if (kBits != 0) {
+          const auto ordinal = hn::And(s, hn::Set(d, std::int16_t{kGroup - 1}));
+          of_group = hn::Add(of_group, ordinal);
+          s = hn::Sub(s, ordinal);
+        }
         // Candidates come in ascending order: the largest one that was better when it came.
-        winner = hn::Max(winner, hn::IfThenElseZero(hn::Lt(s, best), candidate));
+        winner = hn::Max(winner, hn::IfThenElseZero(hn::Lt(s, best), of_group));
         best = hn::Min(best, s);
-        candidate = hn::Add(candidate, one);
+        candidate = hn::Add(candidate, next);
       }
-      u += run;
     }
+    winner = hn::Add(winner, hn::Sub(hn::Iota(d, 0), hn::Set(d, std::int16_t{kBefore})));
     alignas(64) std::int16_t winners[kMaxSumLanes];
     hn::StoreU(hn::Reverse(d, winner), d, winners);
     std::copy_n(winners, lanes, rows_.right_of(begin));
@@ -220,7 +244,8 @@ class Selection {
   int disparities() const { return kDisparities != 0 ? kDisparities : range_.disparities; }
 
   // The limits up to which a sum is near to the smallest of its pixel: the largest S with
-  // S (100 - uniqueness) < 100 smallest, or the smallest itself. Both biased, in both halves of 32 bits.
+  // S (100 - uniqueness) < 100 smallest, or the smallest itself. Both as the sums are stored, with the largest ordinal, in
+  // both halves of 32 bits.
   void set_limits(int count, std::int32_t* smallest, std::int32_t* limits) const {
     const hn::CappedTag<std::int32_t, kPixelsPerStep> d32;
     const hn::RebindToFloat<decltype(d32)> df;
@@ -228,14 +253,16 @@ class Selection {
     const auto bias = hn::Set(d32, kSumBias);
     const auto low_half = hn::Set(d32, 0xFFFF);
     for (int k = 0; k < count; k += static_cast<int>(hn::Lanes(d32))) {
-      const auto sum = hn::LoadU(d32, smallest + k);
+      const auto sum = hn::ShiftRight<kBits>(hn::LoadU(d32, smallest + k));
       // Below 2^23, so a float is exact; a quotient up to 65536 differs from the next whole number by 1/100 at least, its
       // rounding by 1/512 at most.
       const auto dividend = hn::Sub(hn::Mul(sum, hn::Set(d32, 100)), hn::Set(d32, 1));
       const auto quotient = hn::ConvertTo(d32, hn::Div(hn::ConvertTo(df, dividend), share));
       const auto limit = hn::Max(hn::Min(quotient, hn::Set(d32, 65534)), sum);
       const auto twice = [&](auto v) HWY_ATTR {
-        const auto biased = hn::And(hn::Xor(v, bias), low_half);
+        const auto with_ordinal = hn::Or(hn::ShiftLeft<kBits>(v), hn::Set(d32, (1 << kBits) - 1));
+        const auto below_padding = hn::Min(with_ordinal, hn::Set(d32, 65534));
+        const auto biased = hn::And(hn::Xor(below_padding, bias), low_half);
         return hn::Or(biased, hn::ShiftLeft<16>(biased));
       };
       hn::StoreU(twice(limit), d32, limits + k);
