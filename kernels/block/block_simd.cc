@@ -172,7 +172,7 @@ class Band {
       for (int k = 0; k < count; ++k, sums += disparities) {
         V low;
         V high;
-        costs.delta(k, disparities, low, high);
+        costs.delta(costs.left(k), k, disparities, low, high);
         hn::StoreU(hn::Add(hn::LoadU(d, sums), scaled(low)), d, sums);
         hn::StoreU(hn::Add(hn::LoadU(d, sums + lanes), scaled(high)), d, sums + lanes);
       }
@@ -193,9 +193,9 @@ class Band {
 
   // Two vectors of candidates of the k-th pixel: their window slides by one, and the column that enters advances first.
   template <Enters kEnters, class Costs>
-  static HWY_INLINE void slide_pair(const Costs& costs, std::ptrdiff_t k, std::ptrdiff_t disparities,
-                                    const std::int16_t* leaves, std::int16_t* enters, const std::int16_t* ordinal,
-                                    std::int16_t* to, V& low, V& high) {
+  static HWY_INLINE void slide_pair(const Costs& costs, const typename Costs::Left& left, std::ptrdiff_t k,
+                                    std::ptrdiff_t disparities, const std::int16_t* leaves, std::int16_t* enters,
+                                    const std::int16_t* ordinal, std::int16_t* to, V& low, V& high) {
     const D d;
     const int lanes = static_cast<int>(hn::Lanes(d));
     low = hn::Sub(low, hn::LoadU(d, leaves));
@@ -203,7 +203,7 @@ class Band {
     if (kEnters != Enters::nothing) {
       V column_low;
       V column_high;
-      costs.delta(k, disparities, column_low, column_high);
+      costs.delta(left, k, disparities, column_low, column_high);
       column_low = hn::Add(scaled(column_low), hn::LoadU(d, enters));
       column_high = hn::Add(scaled(column_high), hn::LoadU(d, enters + lanes));
       hn::StoreU(column_low, d, enters);
@@ -229,9 +229,10 @@ class Band {
     const std::ptrdiff_t leaves_step = run.leaves_step;
     const int count = run.count;
     const int second = kPairs == 2 ? 2 * lanes : 0;
-    const Costs costs(delta_, run.x, i);
-    const Costs costs2(delta_, run.x, i + second);
-    std::int16_t* enters = column(run.x) + i;
+    const int x = kEnters == Enters::nothing ? range_.valid_begin : run.x;
+    const Costs costs(delta_, x, i);
+    const Costs costs2(delta_, x, i + second);
+    std::int16_t* enters = column(x) + i;
     const std::int16_t* leaves = run.leaves + i;
     const std::int16_t* ordinal = rows_.ordinal.data() + run.x;
     std::int16_t* to = run.sums + i;
@@ -242,11 +243,12 @@ class Band {
     V low2 = hn::LoadU(d, run.before + i + second);
     V high2 = hn::LoadU(d, run.before + i + second + lanes);
     for (int k = 0; k < count; ++k) {
-      slide_pair<kEnters>(costs, k, disparities, leaves, enters, ordinal + k, to, low, high);
+      const auto left = costs.left(kEnters == Enters::nothing ? 0 : k);
+      slide_pair<kEnters>(costs, left, k, disparities, leaves, enters, ordinal + k, to, low, high);
       V lowest = hn::Min(low, high);
       if (kPairs == 2) {
-        slide_pair<kEnters>(costs2, k, disparities, leaves + second, enters + second, ordinal + k, to + second,
-                            low2, high2);
+        slide_pair<kEnters>(costs2, left, k, disparities, leaves + second, enters + second, ordinal + k,
+                            to + second, low2, high2);
         lowest = hn::Min(lowest, hn::Min(low2, high2));
       }
       if (kOnce) {

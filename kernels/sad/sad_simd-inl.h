@@ -69,11 +69,18 @@ class SadDelta {
           outside_new_(s.enters_.outside + s.place_.of_column(x) + i),
           outside_old_(s.leaves_.outside + s.place_.of_column(x) + i) {}
 
+    struct Left {
+      std::uint32_t enters;
+      std::uint32_t leaves;
+    };
+    HWY_INLINE Left left(std::ptrdiff_t k) const { return {left_new_[k], left_old_[k]}; }
+
     // Of the k-th column: the first half of the candidates, and the second.
-    HWY_INLINE void delta(std::ptrdiff_t k, std::ptrdiff_t /*disparities*/, V& low, V& high) const {
+    HWY_INLINE void delta(const Left& left, std::ptrdiff_t k, std::ptrdiff_t /*disparities*/, V& low,
+                          V& high) const {
       const D d;
-      auto enters = difference(left_new_[k], right_new_ - k);
-      auto leaves = difference(left_old_[k], right_old_ - k);
+      auto enters = difference(left.enters, right_new_ - k);
+      auto leaves = difference(left.leaves, right_old_ - k);
       if (kBorder) {
         const Bytes d8;
         const auto inside = hn::LoadU(d8, inside_ - k);
