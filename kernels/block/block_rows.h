@@ -66,7 +66,6 @@ struct SadRows {
 };
 
 struct CensusRows {
-  std::span<std::uint8_t> left;     // where each four bits of the left codes lie in a table
   std::span<std::uint8_t> planes;   // four bits of every code of the row that enters
   std::span<std::uint8_t> zero;     // also `width` codes of 0
   std::span<std::uint8_t> inside;   // all bits, or none
@@ -76,7 +75,6 @@ struct CensusRows {
   static CensusRows lay_out(int width, int disparities, int radius_v, ScratchLayout& scratch) {
     const auto elements = static_cast<std::size_t>(ReversedRow::size_of(width, disparities));
     CensusRows r;
-    r.left = scratch.take<std::uint8_t>(4 * static_cast<std::size_t>(width));
     r.planes = scratch.take<std::uint8_t>(4 * elements);
     r.zero = scratch.take<std::uint8_t>(4 * elements);
     r.inside = scratch.take<std::uint8_t>(elements);

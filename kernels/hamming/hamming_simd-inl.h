@@ -9,6 +9,7 @@
 #include <span>
 
 #include "hwy/highway.h"
+#include "kernels/base/kept_simd-inl.h"
 #include "kernels/block/block_checks.h"
 #include "kernels/block/block_rows.h"
 
@@ -47,7 +48,6 @@ template <class D>
 class HammingDelta {
   using Bytes = hn::Repartition<std::uint8_t, D>;
   static constexpr std::size_t kPlanes = 4;
-  static constexpr std::ptrdiff_t kOffsets = kPlanes;  // of a left code
 
  public:
   using V = hn::Vec<D>;
@@ -68,12 +68,11 @@ class HammingDelta {
     ring_ = rows_.ring.data() + static_cast<std::size_t>(turn % window_rows(call_.params.radius_v)) * row;
     leaves_ = leaves < 0 ? rows_.zero.data() : ring_;
     leaves_step_ = leaves < 0 ? 0 : place_.disparities;
-    left_ = rows_.zero.data();
+    left_ = reinterpret_cast<const CensusCode*>(rows_.zero.data());
     outside_ = rows_.zero.data();
     planes_.fill(rows_.zero.data());
     if (enters < 0) return;
-    left_ = rows_.left.data();
-    split_left(call_.left.row(enters));
+    left_ = call_.left.row(enters);
     outside_ = rows_.outside.data();
     const std::size_t plane = rows_.planes.size() / kPlanes;
     for (std::size_t p = 0; p < kPlanes; ++p)
@@ -89,7 +88,7 @@ class HammingDelta {
   class Columns {
    public:
     HWY_INLINE Columns(const HammingDelta& h, int x, int i)
-        : left_(h.left_ + kOffsets * x),
+        : left_(h.left_ + x),
           plane0_(h.planes_[0] + h.place_.of_column(x) + i),
           plane1_(h.planes_[1] + h.place_.of_column(x) + i),
           plane2_(h.planes_[2] + h.place_.of_column(x) + i),
@@ -102,15 +101,18 @@ class HammingDelta {
 
     // The rows of the table that the k-th left code chooses.
     struct Left {
-      const std::uint8_t* table0;
-      const std::uint8_t* table1;
-      const std::uint8_t* table2;
-      const std::uint8_t* table3;
+      Kept<Bytes> table0;
+      Kept<Bytes> table1;
+      Kept<Bytes> table2;
+      Kept<Bytes> table3;
     };
     HWY_INLINE Left left(std::ptrdiff_t k) const {
-      const std::uint8_t* offsets = left_ + kOffsets * k;
-      const std::uint8_t* table = kNibbleDistances.of[0];
-      return {table + offsets[0], table + offsets[1], table + offsets[2], table + offsets[3]};
+      const Bytes d8;
+      const std::size_t code = left_[k];
+      return {Kept<Bytes>(hn::LoadDup128(d8, kNibbleDistances.of[code & 15])),
+              Kept<Bytes>(hn::LoadDup128(d8, kNibbleDistances.of[code >> 4 & 15])),
+              Kept<Bytes>(hn::LoadDup128(d8, kNibbleDistances.of[code >> 8 & 15])),
+              Kept<Bytes>(hn::LoadDup128(d8, kNibbleDistances.of[code >> 12]))};
     }
 
     // Of the k-th column: the first half of the candidates, and the second. `disparities` apart.
@@ -129,12 +131,11 @@ class HammingDelta {
     }
 
    private:
-    static HWY_INLINE hn::Vec<Bytes> distance(const std::uint8_t* table, const std::uint8_t* right) {
-      const Bytes d8;
-      return hn::TableLookupBytes(hn::LoadDup128(d8, table), hn::LoadU(d8, right));
+    static HWY_INLINE hn::Vec<Bytes> distance(const Kept<Bytes>& table, const std::uint8_t* right) {
+      return hn::TableLookupBytes(table.get(), hn::LoadU(Bytes(), right));
     }
 
-    const std::uint8_t* left_;
+    const CensusCode* left_;
     const std::uint8_t* plane0_;
     const std::uint8_t* plane1_;
     const std::uint8_t* plane2_;
@@ -147,18 +148,6 @@ class HammingDelta {
   };
 
  private:
-  // Four bits of the left codes each, times the length of the table's rows.
-  void split_left(const CensusCode* left) const {
-    std::uint8_t* HWY_RESTRICT offsets = rows_.left.data();
-    for (int x = call_.params.range.valid_begin; x < call_.params.range.valid_end; ++x) {
-      const unsigned code = left[x];
-      offsets[kOffsets * x] = static_cast<std::uint8_t>((code & 15U) << 4);
-      offsets[kOffsets * x + 1] = static_cast<std::uint8_t>(code & 0xF0U);
-      offsets[kOffsets * x + 2] = static_cast<std::uint8_t>((code >> 4) & 0xF0U);
-      offsets[kOffsets * x + 3] = static_cast<std::uint8_t>((code >> 8) & 0xF0U);
-    }
-  }
-
   // The valid right codes, reversed.
   void split(const CensusCode* right, std::uint8_t* planes, std::ptrdiff_t stride) const {
     const hn::FixedTag<std::uint8_t, 16> d;
@@ -189,7 +178,7 @@ class HammingDelta {
   CensusRows rows_;
   ReversedRow place_;
   std::array<const std::uint8_t*, kPlanes> planes_{};
-  const std::uint8_t* left_ = nullptr;  // kPlanes offsets into the table for every column
+  const CensusCode* left_ = nullptr;
   const std::uint8_t* outside_ = nullptr;
   std::uint8_t* ring_ = nullptr;
   const std::uint8_t* leaves_ = nullptr;  // the costs that go; none: zeros

@@ -87,7 +87,7 @@ HWY_INLINE int least_sum(D d, hn::Vec<D> v) {
 }
 #else
 template <class D>
-HWY_INLINE int least_sum(D d, hn::Vec<D> v) {
+HWY_INLINE int least_sum(D /*d*/, hn::Vec<D> v) {
   const hn::RebindToUnsigned<D> du;
   // There is no least of signed lanes on every instruction set.
   const auto sums = hn::Xor(hn::BitCast(du, v), hn::Set(du, std::uint16_t{kSumBias}));
