@@ -80,7 +80,7 @@ std::string bench_text(const BenchResult& r) {
 }
 
 OpencvBuild opencv_build() {
-  const std::string information = cv::getBuildInformation();
+  const std::string& information = cv::getBuildInformation();
   return {CV_VERSION, build_line(information, "Baseline"), build_line(information, "Dispatched code generation"),
           build_line(information, "Parallel framework"), cv::getCPUFeaturesLine()};
 }
