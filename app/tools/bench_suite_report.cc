@@ -58,9 +58,10 @@ void add_reference(std::ostream& out, const SuiteResults& results) {
   out << "\nScalar reference, " << size_text(first) << ", " << first.disparities << " disparities, "
       << first.threads << " thread, and how many times as long as " << first.isa << " it takes:";
   for (const BenchRow& row : first.rows) {
-    if (row.reference_ms && row.name != "sgm_vs_bm")
+    if (row.reference_ms && row.name != "sgm_vs_bm") {
       out << " " << row.name << " " << milliseconds(*row.reference_ms) << " ms ("
           << decimal(*row.reference_ms / row.ms, 1) << "x);";
+    }
   }
   out << "\n";
 }
