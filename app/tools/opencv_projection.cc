@@ -25,7 +25,7 @@ class CloudBinner {
   CloudBinner(const PruneGeometry& g, const PruneModel& model, const NavGrid& grid)
       : grid_(grid),
         cells_per_m_(1000.0F / static_cast<float>(grid.geometry.cell_mm)),
-        half_cols_(static_cast<float>(grid.geometry.cols / 2)),
+        half_cols_(0.5F * static_cast<float>(grid.geometry.cols)),
         focal_times_baseline_(static_cast<float>(g.focal_px * g.baseline_m)),
         max_depth_(static_cast<float>(g.max_depth_m)),
         max_floor_disparity_(static_cast<float>(g.max_disparity_px)),
