@@ -1,5 +1,7 @@
 #include "app/core/matcher.h"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -131,13 +133,19 @@ Rows Matcher::band(int index) const {
   return rows_of_band(height_, bands_, index);
 }
 
+// Rows that are matched together: bands where the result depends on them. A window's does not, and every piece starts
+// with the rows of its window, so there are as few of them as occupy the threads.
+int Matcher::pieces() const {
+  return method_ == Method::sgm ? bands_ : std::min(bands_, omp_get_max_threads());
+}
+
 Status Matcher::describe_band(int index, const ImageView<const std::uint8_t>& image, const Descriptors& out) const {
   if (method_ == Method::sad) return edge_(image, block_.edge_cap, band(index), out.edges);
   return kernels_->census(image, band(index), out.codes);
 }
 
-Status Matcher::match_band(int index, const ImageView<const std::uint8_t>& left) {
-  const Rows rows = band(index);
+Status Matcher::match_piece(int index, int pieces, const ImageView<const std::uint8_t>& left) {
+  const Rows rows = rows_of_band(height_, pieces, index);
   const Status status = kernels_->texture(left, texture_threshold_, rows, textured_);
   if (status != Status::ok) return status;
   const std::size_t part = scratch_.size() / static_cast<std::size_t>(bands_);
@@ -168,9 +176,10 @@ Status Matcher::match(ImageView<const std::uint8_t> left, ImageView<const std::u
     worst = std::max({worst, code(describe_band(b, left, left_)), code(describe_band(b, right, right_))});
   }
   mark(1);
+  const int count = pieces();
 #pragma omp parallel for schedule(dynamic) reduction(max : worst)
-  for (int b = 0; b < bands_; ++b)
-    worst = std::max(worst, code(match_band(b, left)));
+  for (int i = 0; i < count; ++i)
+    worst = std::max(worst, code(match_piece(i, count, left)));
   mark(2);
 #pragma omp parallel for schedule(dynamic) reduction(max : worst)
   for (int b = 0; b < bands_; ++b) {

@@ -54,7 +54,8 @@ class Matcher {
   Descriptors take_descriptors(int width, Arena& arena) const;
   std::size_t scratch_bytes(int width) const;
   Status describe_band(int index, const ImageView<const std::uint8_t>& image, const Descriptors& out) const;
-  Status match_band(int index, const ImageView<const std::uint8_t>& left);
+  int pieces() const;
+  Status match_piece(int index, int pieces, const ImageView<const std::uint8_t>& left);
 
   const KernelTable* kernels_;
   int height_;
