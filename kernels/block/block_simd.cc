@@ -44,7 +44,7 @@ struct BlockSimdRows {
     r.select.first = scratch.take<std::int16_t>(columns + kMaxSumLanes);
     r.select.last = scratch.take<std::int16_t>(columns + kMaxSumLanes);
     r.select.near = scratch.take<std::int16_t>(kNearSums * (columns + kMaxSumLanes));
-    r.select.right = scratch.take<std::int32_t>(columns + kMaxSumLanes + 2);
+    r.select.right = scratch.take<std::int16_t>(columns + kMaxSumLanes + 3);
     return r;
   }
 };

@@ -66,11 +66,18 @@ class Finish {
   static HWY_INLINE V lower(V pair) { return hn::ShiftRight<16>(hn::ShiftLeft<16>(pair)); }
   static HWY_INLINE V upper(V pair) { return hn::ShiftRight<16>(pair); }
 
-  // Whether the winner of right pixel `column` is near to `best`.
-  HWY_INLINE hn::Mask<Ints> agrees(V column, V best) const {
+  // Whether the winner of right pixel `column` is near to `best`, or with a fraction that of the pixel beside it.
+  HWY_INLINE hn::Mask<Ints> right_agrees(V column, V best, V part) const {
     const Ints d;
-    const V theirs = hn::GatherIndex(d, rows_.right_of(0), column);
-    return hn::Lt(hn::Abs(hn::Sub(best, theirs)), hn::Set(d, std::min(p_.left_right_max, kMaxDisparities) + 1));
+    const V zero = hn::Zero(d);
+    // One load for the two: of `column` and the one after, or with a fraction above 0 the one before.
+    const V before = hn::VecFromMask(d, hn::Gt(part, zero));  // -1
+    const V offset = hn::ShiftLeft<1>(hn::Add(column, before));
+    const V pair = hn::GatherOffset(d, reinterpret_cast<const std::int32_t*>(rows_.right_of(0)), offset);
+    const V limit = hn::Set(d, std::min(p_.left_right_max, kMaxDisparities) + 1);
+    const auto first = hn::Lt(hn::Abs(hn::Sub(best, lower(pair))), limit);
+    const auto second = hn::Lt(hn::Abs(hn::Sub(best, upper(pair))), limit);
+    return hn::Or(first, hn::And(second, hn::Ne(part, zero)));
   }
 
   HWY_INLINE hn::Vec<Words> pixels(int u, const std::uint8_t* textured) const {
@@ -108,11 +115,7 @@ class Finish {
       const V pixel = hn::Add(hn::Iota(d, 0), hn::Set(d, u));
       const V column =
           hn::Min(hn::Max(hn::Sub(pixel, whole), hn::Set(d, range_.valid_begin)), hn::Set(d, range_.valid_end - 1));
-      const V right = hn::VecFromMask(d, hn::Gt(part, zero));  // -1
-      const V left = hn::VecFromMask(d, hn::Lt(part, zero));
-      const V beside = hn::Sub(hn::Add(column, right), left);
-      result = hn::IfThenElse(hn::Or(agrees(column, best), agrees(beside, best)), result,
-                              hn::Set(d, std::int32_t{kLeftRightFailed}));
+      result = hn::IfThenElse(right_agrees(column, best, part), result, hn::Set(d, std::int32_t{kLeftRightFailed}));
     }
     if (p_.uniqueness_percent != 0) {
       // No sum is less than 0.

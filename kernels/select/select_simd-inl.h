@@ -29,7 +29,7 @@ namespace lakshya {
 inline constexpr int kMaxSumLanes = 32;  // int16 in 64 bytes: no vector is made longer
 inline constexpr int kSumBias = 32768;
 inline constexpr std::int16_t kSumPadding = 32767;
-inline constexpr std::int32_t kNoRightWinner = -2 * kMaxDisparities;
+inline constexpr std::int16_t kNoRightWinner = -2 * kMaxDisparities;
 inline constexpr int kPixelsPerStep = 32;  // sums first, then winners: as many as stay in the first cache
 // Sums that are kept of a pixel, from the one before the first near candidate on; five are looked at.
 inline constexpr int kNearSums = 8;
@@ -57,9 +57,9 @@ struct SelectRows {
       first;  // first candidate whose sum is near to a left pixel's least; negative: none to be found
   std::span<std::int16_t> last;   // and the last
   std::span<std::int16_t> near;   // kNearSums of every left pixel
-  std::span<std::int32_t> right;  // winner of a right pixel
+  std::span<std::int16_t> right;  // winner of a right pixel
 
-  std::int32_t* right_of(int u) const { return right.data() + u + 1; }
+  std::int16_t* right_of(int u) const { return right.data() + u + 1; }
   // Candidate 0 of slot `index`; pixel u has slot (u - valid_begin) mod sum_slots.
   std::int16_t* slot(int disparities, int index) const {
     return sums.data() + 2 * lanes + static_cast<std::ptrdiff_t>(index) * sum_stride(disparities, lanes);
@@ -123,41 +123,40 @@ HWY_INLINE std::uint64_t bits_of_two(hn::Simd<std::int16_t, 16, 0> /*d*/, M low,
 }
 #endif
 
-// Bit k: candidate k of `count` (at most 64, a constant after inlining) is above the limit.
+// Bit k: candidate k of `count` (at most 64, a constant after inlining) is below the limit.
 template <class D>
-HWY_INLINE std::uint64_t bits_above(D d, const std::int16_t* sums, int count, hn::Vec<D> limit) {
+HWY_INLINE std::uint64_t bits_below(D d, const std::int16_t* sums, int count, hn::Vec<D> limit) {
   const int lanes = static_cast<int>(hn::Lanes(d));
   std::uint64_t bits = 0;
   for (int i = 0; i < count; i += 2 * lanes) {
-    const auto low = hn::Gt(hn::LoadU(d, sums + i), limit);
-    const auto high = hn::Gt(hn::LoadU(d, sums + i + lanes), limit);
+    const auto low = hn::Gt(limit, hn::LoadU(d, sums + i));
+    const auto high = hn::Gt(limit, hn::LoadU(d, sums + i + lanes));
     bits |= bits_of_two(d, low, high) << i;
   }
   return bits;
 }
 
-// First and last candidate whose sum is at most the limit; there is one.
+// First and last candidate whose sum is below the limit; there is one.
 struct Candidates {
   int first;
   int last;
 };
 
 template <class D>
-HWY_INLINE Candidates at_most(D d, const std::int16_t* sums, int disparities, hn::Vec<D> limit) {
+HWY_INLINE Candidates below(D d, const std::int16_t* sums, int disparities, hn::Vec<D> limit) {
   const auto lowest = [](std::uint64_t bits) { return static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero64(bits)); };
   const auto highest = [](std::uint64_t bits) {
     return 63 - static_cast<int>(hwy::Num0BitsAboveMS1Bit_Nonzero64(bits));
   };
   if (disparities == 64) {
-    const std::uint64_t bits = ~bits_above(d, sums, 64, limit);
+    const std::uint64_t bits = bits_below(d, sums, 64, limit);
     return {lowest(bits), highest(bits)};
   }
   Candidates found{-1, 0};
   for (int word = 0; word < disparities; word += 64) {
     const int rest = disparities - word;
-    const std::uint64_t bits = rest >= 64
-                                   ? ~bits_above(d, sums + word, 64, limit)
-                                   : bits_above(d, sums + word, rest, limit) ^ ((std::uint64_t{1} << rest) - 1);
+    const std::uint64_t bits =
+        rest >= 64 ? bits_below(d, sums + word, 64, limit) : bits_below(d, sums + word, rest, limit);
     if (bits == 0) continue;
     if (found.first < 0) found.first = word + lowest(bits);
     found.last = word + highest(bits);
@@ -235,17 +234,15 @@ class Selection {
       }
     }
     winner = hn::Add(winner, hn::Sub(hn::Iota(d, 0), hn::Set(d, std::int16_t{kBefore})));
-    alignas(64) std::int16_t winners[kMaxSumLanes];
-    hn::StoreU(hn::Reverse(d, winner), d, winners);
-    std::copy_n(winners, lanes, rows_.right_of(begin));
+    hn::StoreU(hn::Reverse(d, winner), d, rows_.right_of(begin));
   }
 
  private:
   int disparities() const { return kDisparities != 0 ? kDisparities : range_.disparities; }
 
-  // The limits up to which a sum is near to the smallest of its pixel: the largest S with
-  // S (100 - uniqueness) < 100 smallest, or the smallest itself. Both as the sums are stored, with the largest ordinal, in
-  // both halves of 32 bits.
+  // The limits below which a sum is near to the smallest of its pixel: one more than the largest S with
+  // S (100 - uniqueness) < 100 smallest, or than the smallest itself. Both as the sums are stored, with the largest ordinal,
+  // in both halves of 32 bits.
   void set_limits(int count, std::int32_t* smallest, std::int32_t* limits) const {
     const hn::CappedTag<std::int32_t, kPixelsPerStep> d32;
     const hn::RebindToFloat<decltype(d32)> df;
@@ -262,7 +259,7 @@ class Selection {
       const auto twice = [&](auto v) HWY_ATTR {
         const auto with_ordinal = hn::Or(hn::ShiftLeft<kBits>(v), hn::Set(d32, (1 << kBits) - 1));
         const auto below_padding = hn::Min(with_ordinal, hn::Set(d32, 65534));
-        const auto biased = hn::And(hn::Xor(below_padding, bias), low_half);
+        const auto biased = hn::And(hn::Xor(hn::Add(below_padding, hn::Set(d32, 1)), bias), low_half);
         return hn::Or(biased, hn::ShiftLeft<16>(biased));
       };
       hn::StoreU(twice(limit), d32, limits + k);
@@ -284,10 +281,10 @@ class Selection {
     std::int16_t* HWY_RESTRICT last = rows_.last.data();
     std::int16_t* HWY_RESTRICT near_sums = rows_.near.data() + kNearSums * static_cast<std::ptrdiff_t>(begin);
     for (int u = begin; u < end; ++u, sums += stride, near_sums += kNearSums) {
-      const Candidates near = at_most(d, sums, disparities, hn::BitCast(d, hn::Set(d32, *limits++)));
+      const Candidates near = below(d, sums, disparities, hn::BitCast(d, hn::Set(d32, *limits++)));
       int found = near.first;
       if (!kInside) {
-        const int winner = at_most(d, sums, disparities, hn::BitCast(d, hn::Set(d32, *smallest++))).first;
+        const int winner = below(d, sums, disparities, hn::BitCast(d, hn::Set(d32, *smallest++))).first;
         const int column = u - range.first - winner;
         if (column < range.valid_begin || column >= range.valid_end) found = -1;
       }
