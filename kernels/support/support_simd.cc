@@ -29,6 +29,8 @@ struct SupportWindow {
   const std::int16_t* too_few = nullptr;  // the largest count that is not enough, per lane
 };
 
+inline constexpr int kUsualRadius = 4;
+
 // The largest count with 100 count < min_percent pixels.
 constexpr std::int16_t too_few_of(int min_percent, int pixels) {
   return static_cast<std::int16_t>((min_percent * pixels + 99) / 100 - 1);
@@ -44,6 +46,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Disparities = hn::CappedTag<std::int16_t, kMaxSupportLanes>;
 
+// kRadius: w.radius, for rows of known length; or 0.
+template <int kRadius>
 void support_vector(const SupportWindow& w, std::int16_t* out) {
   const Disparities d;
   const auto own = hn::LoadU(d, w.center);
@@ -60,9 +64,13 @@ void support_vector(const SupportWindow& w, std::int16_t* out) {
       hn::Add(hn::Add(end, hn::Sub(hn::SaturatedAdd(own, range), lowest)), hn::Set(d, std::int16_t{1}));
   const auto too_few = hn::LoadU(d, w.too_few);
   auto count = hn::Zero(d);
-  const auto add_row = [&](int y) {
-    const std::int16_t* row = w.center + y * w.stride;
-    for (int x = -w.radius; x <= w.radius; ++x) {
+  const int radius = kRadius > 0 ? kRadius : w.radius;
+  const std::int16_t* center = w.center;
+  const std::ptrdiff_t stride = w.stride;
+  const auto add_row = [&](int y) HWY_ATTR {
+    const std::int16_t* row = center + y * stride;
+#pragma GCC unroll 16
+    for (int x = -radius; x <= radius; ++x) {
       // A true comparison is -1.
       count = hn::Sub(count, hn::VecFromMask(d, hn::Lt(hn::Add(hn::LoadU(d, row + x), offset), limit)));
     }
@@ -100,7 +108,7 @@ void support_border(const ImageView<const std::int16_t>& disparity, int u, int c
   w.center = rows + w.above * kStride + p.radius;
   w.stride = kStride;
   w.too_few = too_few;
-  support_vector(w, result);
+  support_vector<0>(w, result);
   std::copy_n(result, count, out);
 }
 
@@ -120,7 +128,11 @@ void support_row(const ImageView<const std::int16_t>& disparity, const SupportPa
     if (u >= p.radius && u + lanes + p.radius <= disparity.width) {
       w.center = disparity.row(v) + u;
       w.too_few = too_few;
-      support_vector(w, out + u);
+      if (p.radius == kUsualRadius) {
+        support_vector<kUsualRadius>(w, out + u);
+      } else {
+        support_vector<0>(w, out + u);
+      }
     } else {
       support_border(disparity, u, std::min(lanes, disparity.width - u), p, v, w, out + u);
     }
