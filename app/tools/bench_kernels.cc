@@ -12,12 +12,13 @@
 namespace lakshya {
 namespace {
 
-// Selecting from the costs S, each on lanes of so many bytes: left winner's minimum and place 2, uniqueness 2, right
-// winner's minimum and place 4.
+// Selecting from sums of bytes: left winner's minimum and place 2, uniqueness 2, right winner's minimum and place 4.
 constexpr double kSelectBytes = 8;
-constexpr double kSelectWords = 16;
-// Distance of 32-bit codes: exclusive or 4, population count 4, to one byte 4.
-constexpr double kHamming = 12;
+// From sums of 16 bits with the place among eight neighbours in their lowest bits: left winner's minimum 1, what is near to
+// it 1, right winner's minimum 1 and an eighth of what its place takes, 1.
+constexpr double kSelectWords = 8;
+// Distance of 16-bit codes: exclusive or 2, population count of bytes 2, their sum 1.
+constexpr double kHamming = 5;
 // Sum over a window that slides down and right, 16 bits: a row of costs enters the columns and one leaves (2 + 2), a column
 // enters the window and one leaves (2 + 2).
 constexpr double kWindow = 8;
@@ -26,25 +27,24 @@ constexpr KernelWork kWork[] = {
     // Position to address and fractions 6 operations on 32 bits, four products and three sums on 16 bits with the
     // rounding 12: 24 + 24. The map 6, raw and rectified pixel 1 each.
     {"rectify", "sgm", false, 48, 8},
-    // 31 comparisons, each maximum, equality, mask and collect: 124. Grey value 1, code 4; both images, so twice.
-    {"census", "sgm", false, 2 * 124, 2 * 5},
+    // 16 comparisons, each maximum, equality, mask and collect: 64. Grey value 1, code 2; both images, so twice.
+    {"census", "sgm", false, 2 * 64, 2 * 3},
     // Absolute difference 3, sum over the window in two directions on 16 bits 8, compare 2. Grey value and flag.
     {"texture", "sgm", false, 13, 2},
-    // 81 products share 15 coefficients by symmetry: 66 sums on 16 bits, 15 products and 14 sums on 32, scale and
-    // clamp 6: 132 + 60 + 56 + 6. Grey value and edge; both images.
-    {"edge_log", "sad", false, 2 * 254, 2 * 2},
-    // Distance; mean over 3x3: sums of three rows 2, of three columns and the rounding on 16 bits 8, narrowing 2; three
-    // paths, each two neighbours' minimum and P1 2, stay 1, jump 1, cost 1, minus the least 1, the new least 1; their sum
-    // 2; selection. The rows of distances, path costs and sums do not fit in the first-level cache: distances out 1
-    // and in 3, path from the right out 1 and in 1, path from above in 1 and out 1, sums out 1, in for the right
-    // winner 1.
-    {"sgm", "sgm", true, kHamming + 12 + 21 + 2 + kSelectBytes, 10},
-    // The ring of rows out 1 and in 1, columns in and out 2 + 2, sums out and in 2 + 2.
-    {"census_block", "census", true, kHamming + kWindow + kSelectWords, 10},
-    // The distance is two saturated differences and their union.
-    {"sad_block", "sad", true, 3 + kWindow + kSelectWords, 10},
-    // 81 neighbours on 16 bits: difference, compare, mask, count. Disparity in and out.
-    {"support", "sgm", false, 81 * 8, 4},
+    // On 16 bits: five kinds of columns, which share four sums of symmetric pixels, 18 products and 19 sums: 41; four
+    // sums of symmetric columns and eight of their parts, scale and clamp 3: 15. Grey value and edge; both images.
+    {"edge_log", "sad", false, 2 * 112, 2 * 2},
+    // Distance; mean over 3x3: sums of three rows 2, of three columns with rounding 2; three paths, each two neighbours'
+    // minimum and P1 2, stay 1, jump 1, cost 1, minus the least 1, the new least 1; their sum 2; selection. The rows of
+    // distances, path costs and sums do not fit in the first-level cache: distances out 1 and in 2, sum of three rows
+    // and cost out 1 and in 1, path from the right out 1 and in 1, path from above in 1 and out 1, sums out 1.
+    {"sgm", "sgm", true, kHamming + 4 + 21 + 2 + kSelectBytes, 10},
+    // The ring of rows out 1 and in 1, columns in and out 2 + 2; sums stay in the first-level cache.
+    {"census_block", "census", true, kHamming + kWindow + kSelectWords, 6},
+    // Edges are small enough for a signed difference and its absolute value; that of the row that leaves is found again.
+    {"sad_block", "sad", true, 2 * 2 + kWindow + kSelectWords, 4},
+    // 81 neighbours on 16 bits: offset, compare, count. Disparity in and out.
+    {"support", "sgm", false, 81 * 6, 4},
     // On 16 bits: comparisons 7, masks and class 13: 40. A floor pixel's two ends: four products of 6, four cells of 2,
     // look-up, steps and indices 16: 96; an obstacle's: 24, and its height on 32 bits 9: 84. Of the scene's pixels 42 % are
     // floor and 18 % obstacles: 40 + 40 + 15. Disparity 2, class 1; the rest stays in the first-level cache.
