@@ -22,7 +22,7 @@ struct BenchRounds {
   int rounds = 0;
   int least = 15;
   int most = 100;
-  double budget_ms = 400;
+  double budget_ms = 1500;
   double rest_ms = 0;  // before each task
 };
 

@@ -43,7 +43,7 @@ Plan plan_of(bool quick) {
           64,
           {640, 480},
           {1024, 768},
-          {.rounds = 0, .least = 7, .most = 60, .budget_ms = 500},
+          {.rounds = 0, .least = 15, .most = 60, .budget_ms = 1500},
           15};
 }
 
@@ -150,7 +150,6 @@ class Suite {
   BenchResult target_frame(const std::string& isa) {
     BenchSetting s = setting(plan_.target_size, 64, std::min(kTargetThreads, usable_processors()));
     s.rows = {"frame"};
-    s.rounds.least = std::max(s.rounds.least, 15);
     return measure(s, isa);
   }
 
