@@ -13,7 +13,7 @@ namespace {
 using Results = std::vector<StageComparison>;
 using Json = nlohmann::ordered_json;
 
-constexpr int kStageWidth = 14;
+constexpr int kStageWidth = 17;
 constexpr int kIsaWidth = 10;
 
 // 3, not 3.0: nearly all numbers of the frame are integers.
@@ -92,7 +92,13 @@ std::string compare_table(const Results& results) {
     if (r.stage != stage) out << '\n' << std::setw(kStageWidth) << (stage = r.stage);
     out << std::setw(kIsaWidth) << verdict(r);
   }
-  out << "\n(ref: no kernel of its own, the reference runs; refused: the reference refuses these parameters)\n";
+  out << '\n';
+  const auto any = [&](const char* word) {
+    return std::any_of(results.begin(), results.end(),
+                       [&](const StageComparison& r) { return verdict(r) == word; });
+  };
+  if (any("ref")) out << "(ref: no kernel of its own, the reference runs)\n";
+  if (any("refused")) out << "(refused: the reference refuses these parameters)\n";
   for (const StageComparison& r : results) {
     if (r.numbers.first) out << difference_text(r) << '\n';
   }

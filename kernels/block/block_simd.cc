@@ -352,17 +352,13 @@ class Band {
   Finish finish_;
 };
 
-template <class D, int kDisparities, template <class> class Delta, class Traits, class CostRows>
+template <class D, int kDisparities, int kBits, template <class> class Delta, class Traits, class CostRows>
 void match_rows(const BlockCall<Traits>& call, const Rows& matched, const BlockSimdRows& rows,
                 const CostRows& cost_rows) {
   BlockSimdRows kept = rows;
   kept.select.lanes = static_cast<int>(hn::Lanes(D()));
   Delta<D> delta(call, cost_rows);
-  const int pixels = (2 * call.params.radius_u + 1) * window_rows(call.params.radius_v);
-  if (pixels * Traits::largest(call.params) < 65536 / kOrdinals - 1) {
-    return Band<D, Delta<D>, Traits, kDisparities, kOrdinalBits>(call, kept, delta).run(matched);
-  }
-  Band<D, Delta<D>, Traits, kDisparities, 0>(call, kept, delta).run(matched);
+  Band<D, Delta<D>, Traits, kDisparities, kBits>(call, kept, delta).run(matched);
 }
 
 // With the longest vectors that divide the candidates.
@@ -370,14 +366,18 @@ template <template <class> class Delta, class Traits, class CostRows>
 void match_band(const BlockCall<Traits>& call, const Rows& matched, const BlockSimdRows& rows,
                 const CostRows& cost_rows) {
   const int disparities = call.params.range.disparities;
-  if (disparities == 64) {
-    match_rows<hn::CappedTag<std::int16_t, 32>, 64, Delta>(call, matched, rows, cost_rows);
+  const int pixels = (2 * call.params.radius_u + 1) * window_rows(call.params.radius_v);
+  if (pixels * Traits::largest(call.params) >= 65536 / kOrdinals - 1) {
+    // Large windows, which are rare, need no second form of everything.
+    match_rows<hn::CappedTag<std::int16_t, 8>, 0, 0, Delta>(call, matched, rows, cost_rows);
+  } else if (disparities == 64) {
+    match_rows<hn::CappedTag<std::int16_t, 32>, 64, kOrdinalBits, Delta>(call, matched, rows, cost_rows);
   } else if (disparities % 64 == 0) {
-    match_rows<hn::CappedTag<std::int16_t, 32>, 0, Delta>(call, matched, rows, cost_rows);
+    match_rows<hn::CappedTag<std::int16_t, 32>, 0, kOrdinalBits, Delta>(call, matched, rows, cost_rows);
   } else if (disparities % 32 == 0) {
-    match_rows<hn::CappedTag<std::int16_t, 16>, 0, Delta>(call, matched, rows, cost_rows);
+    match_rows<hn::CappedTag<std::int16_t, 16>, 0, kOrdinalBits, Delta>(call, matched, rows, cost_rows);
   } else {
-    match_rows<hn::CappedTag<std::int16_t, 8>, 0, Delta>(call, matched, rows, cost_rows);
+    match_rows<hn::CappedTag<std::int16_t, 8>, 0, kOrdinalBits, Delta>(call, matched, rows, cost_rows);
   }
 }
 

@@ -161,10 +161,14 @@ void sgm_band(const SgmInput& input, const SgmParams& params, const SgmSimdRows&
   const std::size_t lanes = hn::Lanes(Bytes());
   const auto disparities = static_cast<std::size_t>(params.range.disparities);
   const std::size_t pitch = (disparities + lanes - 1) / lanes * lanes;
-  const std::size_t whole = pitch == disparities ? disparities / lanes : 0;
-  if (whole == 1) return SgmBand<1>(input, params, rows, pitch).run(span, disparity);
-  if (whole == 2) return SgmBand<2>(input, params, rows, pitch).run(span, disparity);
-  if (whole == 4) return SgmBand<4>(input, params, rows, pitch).run(span, disparity);
+#if !(HWY_ARCH_ARM && HWY_TARGET != HWY_NEON)
+  // Usual numbers, if a pixel's vectors fit the registers.
+  constexpr std::size_t kLanes = hn::MaxLanes(Bytes());
+  if (disparities == 64) return SgmBand<64 / kLanes>(input, params, rows, pitch).run(span, disparity);
+  if constexpr (kLanes >= 32) {
+    if (disparities == 128) return SgmBand<128 / kLanes>(input, params, rows, pitch).run(span, disparity);
+  }
+#endif
   SgmBand<0>(input, params, rows, pitch).run(span, disparity);
 }
 
