@@ -101,7 +101,7 @@ inline void right_planes(const CensusCode* codes, int width, int first, Reversed
   const Bytes d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   for (y = valid.begin; y < valid.end; y += lanes) {
-    auto low = hn::Undefined(d);
+    auto low = hn::Zero(d);
     auto high = low;
     hn::LoadInterleaved2(d, reinterpret_cast<const std::uint8_t*>(reversed + y), low, high);
     store_planes(low, 0, y, rows);

@@ -153,7 +153,7 @@ class Decide {
     // Half of a word of 64 bits each, and each other half after it.
     const Ints d;
     const auto* bits = reinterpret_cast<const std::int32_t*>(rows_.rivals.data() + u);
-    auto lower = hn::Undefined(d);
+    auto lower = hn::Zero(d);
     auto upper = lower;
     hn::LoadInterleaved2(d, bits, lower, upper);
     return hn::Ne(hn::Or(lower, upper), hn::Zero(d));
