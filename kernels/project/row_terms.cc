@@ -142,7 +142,7 @@ bool grid_fits(const GridGeometry& g) {
 CellDivider make_cell_divider(int cell_mm) {
   CellDivider divider;
   if (cell_mm < 3 || cell_mm > 1 << 15) return divider;
-  const int k = 15 + std::bit_width(static_cast<unsigned>(cell_mm - 1));  // > 16
+  const int k = 15 + static_cast<int>(std::bit_width(static_cast<unsigned>(cell_mm - 1)));  // > 16
   const std::int64_t scale = std::int64_t{1} << k;
   const std::int64_t multiplier = (scale + cell_mm - 1) / cell_mm;
   const std::int64_t excess = multiplier * cell_mm - scale;

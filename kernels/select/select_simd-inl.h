@@ -81,7 +81,7 @@ HWY_INLINE int least_sum(hn::Simd<std::int16_t, 8, 0> d, hn::Vec<hn::Simd<std::i
   return static_cast<std::uint16_t>(_mm_cvtsi128_si32(_mm_minpos_epu16(sums.raw)));
 }
 template <class D>
-HWY_INLINE int least_sum(D d, hn::Vec<D> v) {
+HWY_INLINE int least_sum(D /*d*/, hn::Vec<D> v) {
   const hn::Half<D> half;
   return least_sum(half, hn::Min(hn::LowerHalf(half, v), hn::UpperHalf(half, v)));
 }
