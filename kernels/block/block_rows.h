@@ -25,7 +25,14 @@ struct ReversedRow {
   static int size_of(int width, int candidates) { return width + candidates; }
   int of_column(int x) const { return valid_end - 1 - x; }
   int column_of(int j) const { return valid_end - 1 - first - j; }
-  bool inside(int j) const { return j >= inside_begin && j < inside_end; }
+  // For every element: all bits in `is_inside` and 0 in `outside` where it has a valid right column, else none and `cost`.
+  void mark(std::uint8_t cost, std::span<std::uint8_t> is_inside, std::span<std::uint8_t> outside) const {
+    for (std::size_t j = 0; j < is_inside.size(); ++j) {
+      const bool inside = static_cast<int>(j) >= inside_begin && static_cast<int>(j) < inside_end;
+      is_inside[j] = static_cast<std::uint8_t>(inside ? 255 : 0);
+      outside[j] = inside ? std::uint8_t{0} : cost;
+    }
+  }
   // Columns whose candidates are all in the right image, if there are any: they lie together.
   int whole_begin() const { return valid_end - 1 - inside_end + disparities; }
   int whole_end() const { return valid_end - inside_begin; }

@@ -5,7 +5,6 @@
 #include "hwy/foreach_target.h"
 // foreach_target.h comes first, whatever the alphabet says.
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 

@@ -55,11 +55,7 @@ class HammingDelta {
   HammingDelta(const BlockCall<CensusTraits>& call, const CensusRows& rows)
       : call_(call), rows_(rows), place_(call.params.range) {
     std::fill(rows.zero.begin(), rows.zero.end(), std::uint8_t{0});
-    for (std::size_t j = 0; j < rows.inside.size(); ++j) {
-      const bool inside = place_.inside(static_cast<int>(j));
-      rows.inside[j] = static_cast<std::uint8_t>(inside ? 255 : 0);
-      rows.outside[j] = inside ? std::uint8_t{0} : CensusTraits::outside(call.params);
-    }
+    place_.mark(CensusTraits::outside(call.params), rows.inside, rows.outside);
   }
 
   // Row `enters` comes into the window, row `leaves` goes; -1 for none. `turn` counts the calls.

@@ -40,11 +40,7 @@ class SadDelta {
   SadDelta(const BlockCall<SadTraits>& call, const SadRows& rows)
       : call_(call), rows_(rows), place_(call.params.range) {
     std::fill(rows.zero.begin(), rows.zero.end(), std::uint8_t{0});
-    for (std::size_t j = 0; j < rows.inside.size(); ++j) {
-      const bool inside = place_.inside(static_cast<int>(j));
-      rows.inside[j] = static_cast<std::uint8_t>(inside ? 255 : 0);
-      rows.outside[j] = inside ? std::uint8_t{0} : SadTraits::outside(call.params);
-    }
+    place_.mark(SadTraits::outside(call.params), rows.inside, rows.outside);
   }
 
   // Row `enters` comes into the window, row `leaves` goes; -1 for none. `turn` counts the calls.
