@@ -6,6 +6,7 @@
 #include "hwy/highway.h"
 #include "kernels/base/units.h"
 #include "kernels/select/select_simd-inl.h"
+#include "kernels/select/sub_pixel_simd-inl.h"
 
 #if defined(LAKSHYA_SELECT_FINISH_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAKSHYA_SELECT_FINISH_SIMD_INL
@@ -48,37 +49,8 @@ class Finish {
   }
 
  private:
-  // 1/16 px: floor((16 num + den) / (2 den)). The quotient of a winner is between 0 and 16.5 away from 0 and differs from
-  // every whole number by nothing or by at least 1 / (2 den) > 2^-19, so its rounding to a float (2^-20 at most) does
-  // not change its floor.
-  HWY_INLINE V fraction(V best, V before, V here, V after) const {
-    const Ints d;
-    const hn::RebindToFloat<Ints> df;
-    const V curvature = hn::Sub(hn::Add(before, after), hn::Add(here, here));
-    const V denominator = hn::Max(curvature, hn::Set(d, scale_));
-    const V dividend = hn::Add(hn::ShiftLeft<kDisparityBits>(hn::Sub(before, after)), denominator);
-    const auto quotient =
-        hn::Div(hn::ConvertTo(df, dividend), hn::ConvertTo(df, hn::Add(denominator, denominator)));
-    const auto inner = hn::And(hn::Gt(best, hn::Zero(d)), hn::Lt(best, hn::Set(d, range_.disparities - 1)));
-    return hn::IfThenElseZero(inner, hn::ConvertTo(d, hn::Floor(quotient)));
-  }
-
   static HWY_INLINE V lower(V pair) { return hn::ShiftRight<16>(hn::ShiftLeft<16>(pair)); }
   static HWY_INLINE V upper(V pair) { return hn::ShiftRight<16>(pair); }
-
-  // Whether the winner of right pixel `column` is near to `best`, or with a fraction that of the pixel beside it.
-  HWY_INLINE hn::Mask<Ints> right_agrees(V column, V best, V part) const {
-    const Ints d;
-    const V zero = hn::Zero(d);
-    // One load for the two: of `column` and the one after, or with a fraction above 0 the one before.
-    const V before = hn::VecFromMask(d, hn::Gt(part, zero));  // -1
-    const V offset = hn::ShiftLeft<1>(hn::Add(column, before));
-    const V pair = hn::GatherOffset(d, reinterpret_cast<const std::int32_t*>(rows_.right_of(0)), offset);
-    const V limit = hn::Set(d, std::min(p_.left_right_max, kMaxDisparities) + 1);
-    const auto first = hn::Lt(hn::Abs(hn::Sub(best, lower(pair))), limit);
-    const auto second = hn::Lt(hn::Abs(hn::Sub(best, upper(pair))), limit);
-    return hn::Or(first, hn::And(second, hn::Ne(part, zero)));
-  }
 
   HWY_INLINE hn::Vec<Words> pixels(int u, const std::uint8_t* textured) const {
     const Ints d;
@@ -106,7 +78,7 @@ class Finish {
     place = hn::IfThenElse(third, hn::Set(d, 2), place);
     const V best = hn::Add(first, place);
     const V reach = hn::Max(hn::Sub(last, best), place);
-    const V part = fraction(best, before, here, after);
+    const V part = sub_pixel(d, range_.disparities, scale_, best, before, here, after);
     const V whole = hn::Add(best, hn::Set(d, range_.first));
     V result = hn::Add(hn::Add(hn::ShiftLeft<kDisparityBits>(whole), part), hn::Set(d, p_.offset16));
     if (p_.left_right_max >= 0) {
@@ -115,7 +87,9 @@ class Finish {
       const V pixel = hn::Add(hn::Iota(d, 0), hn::Set(d, u));
       const V column =
           hn::Min(hn::Max(hn::Sub(pixel, whole), hn::Set(d, range_.valid_begin)), hn::Set(d, range_.valid_end - 1));
-      result = hn::IfThenElse(right_agrees(column, best, part), result, hn::Set(d, std::int32_t{kLeftRightFailed}));
+      const V pair = hn::Add(column, hn::VecFromMask(d, hn::Gt(part, zero)));  // from the one before
+      const auto agrees = right_pair_agrees(d, rows_.right_of(0), pair, best, part, p_.left_right_max);
+      result = hn::IfThenElse(agrees, result, hn::Set(d, std::int32_t{kLeftRightFailed}));
     }
     if (p_.uniqueness_percent != 0) {
       // No sum is less than 0.

@@ -12,6 +12,7 @@
 #include <cstdint>
 
 #include "kernels/base/units.h"
+#include "kernels/select/sub_pixel_simd-inl.h"
 #include "kernels/sgm/sgm.h"
 #include "kernels/sgm/sgm_sums_simd-inl.h"
 
@@ -111,7 +112,6 @@ class Decide {
         width_(width),
         rows_(rows),
         first_(params.range.first),
-        last_(params.range.disparities - 1),
         unique_no_more_(unique_no_more(params.select.uniqueness_percent)) {}
 
   void row(const std::uint8_t* textured, std::int16_t* disparity) const {
@@ -129,20 +129,6 @@ class Decide {
   }
 
  private:
-  // 1/16 px relative to the winner: floor((16 num + den) / (2 den)). The quotient differs from every whole number by
-  // nothing or by at least 1 / (2 den) > 1 / 2048, so its rounding to a float does not change its floor.
-  HWY_INLINE Int fraction(Int best, Int sum, Int before, Int after) const {
-    const Ints d;
-    const hn::RebindToFloat<Ints> df;
-    const auto one = hn::Set(d, 1);
-    const auto numerator = hn::Sub(before, after);
-    const auto denominator = hn::Max(hn::Sub(hn::Add(before, after), hn::Add(sum, sum)), one);
-    const auto above = hn::Add(hn::ShiftLeft<kDisparityBits>(numerator), denominator);
-    const auto quotient = hn::Div(hn::ConvertTo(df, above), hn::ConvertTo(df, hn::Add(denominator, denominator)));
-    const auto inner = hn::And(hn::Gt(best, hn::Zero(d)), hn::Lt(best, hn::Set(d, last_)));
-    return hn::IfThenElseZero(inner, hn::ConvertTo(d, hn::Floor(quotient)));
-  }
-
   template <int kByte>
   static HWY_INLINE Int byte(hn::Vec<hn::RebindToUnsigned<Ints>> words) {
     const hn::RebindToUnsigned<Ints> d;
@@ -159,23 +145,6 @@ class Decide {
     return hn::Ne(hn::Or(lower, upper), hn::Zero(d));
   }
 
-  // Whether the right pixel of `best`, or that of its neighbour on the fraction's side, has its own winner near to it.
-  HWY_INLINE hn::Mask<Ints> right_agrees(Int pixel, Int best, Int fraction) const {
-    const Ints d;
-    const auto zero = hn::Zero(d);
-    const auto y = hn::Add(hn::Sub(hn::Set(d, width_ - 1), pixel), best);
-    const auto first = hn::Sub(y, hn::IfThenElseZero(hn::Lt(fraction, zero), hn::Set(d, 1)));
-    // One load for the two: half a word each. The last pixels of a row's last vector do not exist.
-    const auto offset = hn::Max(hn::ShiftLeft<1>(first), zero);
-    const auto both = hn::GatherOffset(d, reinterpret_cast<const std::int32_t*>(rows_.right_winner.data()), offset);
-    const auto limit = hn::Set(d, std::min(p_.select.left_right_max, kMaxDisparities) + 1);
-    const auto lower = hn::ShiftRight<16>(hn::ShiftLeft<16>(both));
-    const auto upper = hn::ShiftRight<16>(both);
-    const auto lower_agrees = hn::Lt(hn::Abs(hn::Sub(best, lower)), limit);
-    const auto upper_agrees = hn::Lt(hn::Abs(hn::Sub(best, upper)), limit);
-    return hn::Or(lower_agrees, hn::And(upper_agrees, hn::Ne(fraction, zero)));
-  }
-
   HWY_INLINE void pixels(int u, const std::uint8_t* textured, std::int16_t* disparity) const {
     const Ints d;
     const hn::Rebind<std::uint8_t, Ints> d8;
@@ -188,11 +157,16 @@ class Decide {
     const auto before = byte<0>(sums);
     const auto sum = byte<1>(sums);
     const auto after = byte<2>(sums);
-    const auto part = fraction(best, sum, before, after);
+    const auto part = sub_pixel(d, p_.range.disparities, 1, best, before, sum, after);
     const auto whole = hn::Add(best, hn::Set(d, first_));
     auto result = hn::Add(hn::Add(hn::ShiftLeft<kDisparityBits>(whole), part), hn::Set(d, p_.select.offset16));
     if (p_.select.left_right_max >= 0) {
-      const auto agrees = right_agrees(pixel, best, part);
+      // The right pixel of the winner, and on the fraction's side its neighbour. The last pixels of a row's last vector do
+      // not exist.
+      const auto y = hn::Add(hn::Sub(hn::Set(d, width_ - 1), pixel), best);
+      const auto first = hn::Max(hn::Sub(y, hn::IfThenElseZero(hn::Lt(part, zero), hn::Set(d, 1))), zero);
+      const auto agrees =
+          right_pair_agrees(d, rows_.right_winner.data(), first, best, part, p_.select.left_right_max);
       result = hn::IfThenElse(agrees, result, hn::Set(d, kLeftRightFailed));
     }
     result = hn::IfThenElse(hn::Or(has_rivals(u), hn::Gt(sum, hn::Set(d, unique_no_more_ - 1))),
@@ -210,7 +184,6 @@ class Decide {
   int width_;
   const SgmSimdRows& rows_;
   std::int32_t first_;
-  std::int32_t last_;
   std::int32_t unique_no_more_;
 };
 
