@@ -8,6 +8,7 @@
 #include <span>
 
 #include "kernels/base/image_view.h"
+#include "kernels/base/memory.h"
 
 namespace lakshya {
 
@@ -19,7 +20,7 @@ class Arena {
 
   Arena() = default;
   explicit Arena(std::size_t bytes)
-      : memory_(static_cast<std::byte*>(::operator new (bytes, std::align_val_t{kAlignment}))), capacity_(bytes) {}
+      : block_(static_cast<std::byte*>(::operator new (bytes, std::align_val_t{kAlignment}))), capacity_(bytes) {}
 
   // Zeroed elements, aligned to kAlignment. A real arena that is too small throws std::bad_alloc: a layout that
   // takes more than it measured is a programming error, found at start.
@@ -28,9 +29,9 @@ class Arena {
     const std::size_t bytes = (count * sizeof(T) + kAlignment - 1) / kAlignment * kAlignment;
     const std::size_t begin = used_;
     used_ += bytes;
-    if (memory_ == nullptr) return {};
+    if (block_ == nullptr) return {};
     if (used_ > capacity_) throw std::bad_alloc();
-    T* first = reinterpret_cast<T*>(memory_.get() + begin);
+    T* first = reinterpret_cast<T*>(block_.get() + begin);
     std::uninitialized_value_construct_n(first, count);
     return {first, count};
   }
@@ -43,11 +44,14 @@ class Arena {
 
   std::size_t used() const { return used_; }
 
+  // Where everything taken from this arena lies.
+  static constexpr Memory memory() { return Memory::host; }
+
  private:
   struct Release {
     void operator()(std::byte* p) const { ::operator delete (p, std::align_val_t{kAlignment}); }
   };
-  std::unique_ptr<std::byte, Release> memory_;
+  std::unique_ptr<std::byte, Release> block_;
   std::size_t capacity_ = 0;
   std::size_t used_ = 0;
 };

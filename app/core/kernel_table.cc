@@ -21,6 +21,7 @@ constexpr KernelName kKernels[] = {
     LAKSHYA_KERNEL(edge_sobel),       LAKSHYA_KERNEL(edge_log),     LAKSHYA_KERNEL(sgm),
     LAKSHYA_KERNEL(census_block),     LAKSHYA_KERNEL(sad_block),    LAKSHYA_KERNEL(support),
     LAKSHYA_KERNEL(ground_residuals), LAKSHYA_KERNEL(project_rows), LAKSHYA_KERNEL(score),
+    LAKSHYA_KERNEL(polar_histogram),
 };
 #undef LAKSHYA_KERNEL
 
@@ -64,7 +65,7 @@ KernelTable kernels_by_name(std::string_view choice) {
     }
     const KernelName& kernel = find(kKernels, part.substr(0, equals), "kernel");
     const Backend& backend = find(kBackends, part.substr(equals + 1), "backend");
-    if (backend.memory != main.memory) {
+    if (backend.kernels->memory != table.memory) {
       throw InputError(kWhere, std::string(backend.name) + " keeps its buffers elsewhere than " + main.name +
                                    " (choose one of them for all kernels)");
     }

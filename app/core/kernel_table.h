@@ -2,9 +2,9 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <string_view>
 
+#include "kernels/base/memory.h"
 #include "kernels/block/block.h"
 #include "kernels/census/census.h"
 #include "kernels/edge/edge.h"
@@ -20,6 +20,7 @@
 namespace lakshya {
 
 struct KernelTable {
+  Memory memory;  // where the buffers that these kernels are given lie
   decltype(&rectify_ref) rectify;
   decltype(&census_ref) census;
   decltype(&texture_ref) texture;
@@ -36,6 +37,7 @@ struct KernelTable {
 };
 
 inline constexpr KernelTable kReferenceKernels = {
+    .memory = Memory::host,
     .rectify = rectify_ref,
     .census = census_ref,
     .texture = texture_ref,
@@ -53,6 +55,7 @@ inline constexpr KernelTable kReferenceKernels = {
 
 // On the instruction set of kernels/base/isa.h; bit for bit what the reference gives.
 inline constexpr KernelTable kSimdKernels = {
+    .memory = Memory::host,
     .rectify = rectify_simd,
     .census = census_simd,
     .texture = texture_simd,
@@ -68,18 +71,13 @@ inline constexpr KernelTable kSimdKernels = {
     .polar_histogram = polar_histogram_simd,
 };
 
-// Where a backend's buffers live. The arena's are in host memory; a backend that wants them elsewhere needs an arena of
-// its own, and is refused with this one.
-enum class Memory : std::uint8_t { host, device };
-
 struct Backend {
   const char* name;
-  Memory memory;
   const KernelTable* kernels;
 };
 inline constexpr std::array<Backend, 2> kBackends = {{
-    {"ref", Memory::host, &kReferenceKernels},
-    {"simd", Memory::host, &kSimdKernels},
+    {"ref", &kReferenceKernels},
+    {"simd", &kSimdKernels},
 }};
 
 // "simd" or "ref" for all kernels, or with exceptions, "simd,sgm=ref,score=ref" (names are the members of KernelTable).

@@ -102,6 +102,10 @@ Pipeline::Pipeline(const VehicleConfig& config, const StereoCalibration& calibra
                          std::to_string(kMaxArenaBytes >> 20) +
                          " (use smaller images, or fewer matcher.disparities or matcher.bands)");
   }
+  if (kernels.memory != Arena::memory()) {
+    throw InputError("backend",
+                     "its kernels want their buffers in a device's memory, and the pipeline's are in the host's");
+  }
   arena_ = Arena(measure.used());
   buffers_ = std::make_unique<Buffers>(config, camera_, kernels, arena_);
 

@@ -175,6 +175,12 @@ TEST_F(PipelineTest, RefusesASearchRangeOutsideTheImage) {
   EXPECT_THROW(Pipeline(c, rig(), kWidth, kHeight, kReferenceKernels, clock_), InputError);
 }
 
+TEST_F(PipelineTest, RefusesKernelsWhoseBuffersLieElsewhere) {
+  KernelTable elsewhere = kReferenceKernels;
+  elsewhere.memory = Memory::device;
+  EXPECT_THROW(Pipeline(vehicle(), rig(), kWidth, kHeight, elsewhere, clock_), InputError);
+}
+
 TEST_F(PipelineTest, AFailedFrameLeavesNoCommandBehind) {
   Pipeline pipeline(vehicle(), rig(), kWidth, kHeight, kReferenceKernels, clock_);
   FrameResult frame = run(pipeline);
