@@ -14,9 +14,11 @@ class ThreadClock final : public Clock {
   Nanoseconds now() const override {
     timespec t{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return t.tv_sec * Nanoseconds{1'000'000'000} + t.tv_nsec;
+    return t.tv_sec * kSecond + t.tv_nsec;
   }
-  void sleep_until(Nanoseconds /*deadline*/) override {}  // nothing here waits
+  // Nothing here waits.
+  void sleep_until(Nanoseconds /*deadline*/) override {}
+  Status wait_for(int /*fd*/, Ready /*what*/, Nanoseconds /*deadline*/) override { return Status::timeout; }
 };
 
 BenchClock& chosen_clock() {

@@ -1,4 +1,4 @@
-// The machine's clock: clock_gettime(CLOCK_MONOTONIC) and clock_nanosleep with an absolute deadline.
+// The machine's clock: clock_gettime(CLOCK_MONOTONIC) and clock_nanosleep with an absolute deadline, ppoll.
 #pragma once
 
 #include "hal/clock.h"
@@ -9,6 +9,7 @@ class MonotonicClock final : public Clock {
  public:
   Nanoseconds now() const override;
   void sleep_until(Nanoseconds deadline) override;
+  Status wait_for(int fd, Ready what, Nanoseconds deadline) override;
 };
 
 }  // namespace lakshya

@@ -1,0 +1,40 @@
+#include "tests/emulators/on_terminal.h"
+
+#include <chrono>
+
+namespace lakshya::emulator {
+
+std::int64_t monotonic_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+OnTerminal::OnTerminal(LineDevice& device) : device_(device), thread_([this] { run(); }) {}
+
+OnTerminal::~OnTerminal() {
+  stop_ = true;
+  thread_.join();
+}
+
+void OnTerminal::unplug() {
+  const auto lock = locked();
+  plugged_ = false;
+  terminal_.unplug();
+}
+
+// A millisecond is short beside the 8 ms that a reply of 16 characters takes at 19200 baud, and long enough not to load the
+// machine.
+void OnTerminal::run() {
+  while (!stop_) {
+    {
+      const auto lock = locked();
+      const std::string heard = plugged_ ? terminal_.read(0) : std::string();
+      if (!heard.empty()) device_.hear(heard, monotonic_ns());
+      const std::string said = device_.say(monotonic_ns());
+      if (!said.empty() && plugged_) terminal_.write(said);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+}  // namespace lakshya::emulator
