@@ -10,6 +10,8 @@
 namespace lakshya {
 namespace {
 
+constexpr mode_t kNewFileMode = 0644;
+
 template <class Call>
 auto retried(Call call) {
   auto result = call();
@@ -21,7 +23,7 @@ auto retried(Call call) {
 class LinuxSystemCalls final : public SystemCalls {
  public:
   int open(const char* path, int flags) override {
-    return retried([&] { return ::open(path, flags | O_NONBLOCK | O_CLOEXEC); });
+    return retried([&] { return ::open(path, flags | O_NONBLOCK | O_CLOEXEC, kNewFileMode); });
   }
   int close(int fd) override {
     return ::close(fd) < 0 ? -errno : 0;
