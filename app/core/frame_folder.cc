@@ -144,6 +144,12 @@ FrameFolder FrameFolder::open_pair(const std::string& left_folder, const std::st
   return frames;
 }
 
+FrameFolder FrameFolder::single_pair(const std::string& left_image, const std::string& right_image) {
+  FrameFolder frames(left_image);
+  frames.frames_.push_back({left_image, right_image, {}});
+  return frames;
+}
+
 void FrameFolder::add_pairs_by_time(const std::string& left_folder, const std::string& right_folder) {
   const std::vector<TimedImage> left = list_timed_images(left_folder);
   const std::vector<TimedImage> right = list_timed_images(right_folder);

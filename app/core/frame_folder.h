@@ -30,6 +30,9 @@ class FrameFolder {
   // at the same places.
   static FrameFolder open_pair(const std::string& left_folder, const std::string& right_folder);
 
+  // One frame: these two images.
+  static FrameFolder single_pair(const std::string& left_image, const std::string& right_image);
+
   int count() const { return static_cast<int>(frames_.size()); }
 
   // Frame n, counted from 0. Throws InputError, with the count, for n outside 0..count()-1.

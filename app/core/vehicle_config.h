@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "app/core/device_config.h"
 #include "app/nav/params.h"
 
 namespace lakshya {
@@ -77,6 +78,12 @@ struct VehicleConfig {
   ScoreConfig score;
   PlannerParams planner;
   VehicleParams vehicle;
+  DriversConfig drivers;
+  FolderConfig folder;
+  RecordConfig record;
+  PwmConfig pwm;
+  CompassConfig compass;
+  OdometryConfig odometry;
 };
 
 }  // namespace lakshya

@@ -7,25 +7,13 @@
 #include <span>
 #include <string_view>
 
+#include "app/core/config_key.h"
+#include "app/core/device_config_keys.h"
 #include "app/core/vehicle_config.h"
 #include "app/nav/vfh.h"
 
 namespace lakshya {
 
-struct Key {
-  std::string_view name;     // "group.field"
-  std::string_view unit;     // empty: a pure number or a name
-  std::string_view meaning;  // one sentence without its full stop
-};
-
-// Allowed values: min and max included; step 0: any, else min plus whole steps.
-struct Range {
-  double min = 0;
-  double max = 0;
-  double step = 0;
-};
-
-using Names = std::span<const std::string_view>;
 inline constexpr std::array<std::string_view, 3> kMatcherNames{"sgm", "census", "sad"};
 inline constexpr std::array<std::string_view, 2> kEdgeNames{"log", "sobel"};
 inline constexpr std::array<std::string_view, 2> kPlannerNames{"vfh+", "vfh"};
@@ -35,7 +23,7 @@ struct Group {
   std::string_view name;
   std::string_view meaning;
 };
-inline constexpr std::array<Group, 7> kGroups{{
+inline constexpr std::array<Group, 13> kGroups{{
     {"camera", "Mount of the left camera, relative to the ground under the wheels and to the turning centre"},
     {"matcher", "From the rectified pair to disparities"},
     {"prune", "Which points matter: depth, floor and ceiling"},
@@ -44,6 +32,12 @@ inline constexpr std::array<Group, 7> kGroups{{
     {"score", "What makes a cell of the map an obstacle or unoccupied"},
     {"planner", "From the map to a direction"},
     {"vehicle", "The vehicle's body, speed and steering"},
+    {"drivers", "Which devices the vehicle has"},
+    {"folder", "Camera driver folder"},
+    {"record", "Servo driver record"},
+    {"pwm", "Servo driver pwm: two hobby drives on a PWM chip of the kernel's"},
+    {"compass", "What every compass needs"},
+    {"odometry", "The pose from the wheels' travel and the compass"},
 }};
 
 // A profile is a list of overrides, as text: what --set would say.
@@ -76,7 +70,7 @@ inline constexpr std::array<Profile, 2> kProfiles{{
 }};
 
 // The visitor is called with (const Key&, field, allowed values): Range for double and int fields, Names for
-// std::string fields. Keys of one group follow each other, groups in the order of kGroups.
+// std::string fields with a choice, Text for others. Keys of one group follow each other, groups in the order of kGroups.
 template <class Camera, class Visitor>
 void visit_camera_keys(Camera& c, Visitor& v) {
   v(Key{"camera.height_m", "m", "Height of the left camera's centre above the ground (H)"}, c.height_m,
@@ -275,6 +269,7 @@ void visit_keys(Config& c, Visitor&& v) {
   visit_score_keys(c.score, v);
   visit_planner_keys(c.planner, v);
   visit_vehicle_keys(c.vehicle, v);
+  visit_device_keys(c, v);
 }
 
 }  // namespace lakshya

@@ -91,6 +91,18 @@ class SettingVisitor {
     field = setting_.text;
   }
 
+  void operator()(const Key& key, std::string& field, const Text& text) {
+    if (!matches(key)) return;
+    const auto forbidden = [](char c) {
+      const auto u = static_cast<unsigned char>(c);
+      return u < 0x20 || u == 0x7f || c == '"' || c == '\\';
+    };
+    const std::string& value = setting_.text;
+    if (value.size() > text.longest || std::any_of(value.begin(), value.end(), forbidden))
+      refuse(key, "cannot be taken", text);
+    field = value;
+  }
+
   bool found() const { return found_; }
 
  private:

@@ -23,15 +23,19 @@ constexpr std::string_view kHead =
 # the selected profile of this file, --set on the command line. More profiles may be added below.
 )";
 
-std::string value_text(double value) {
+std::string value_text(double value, const Range& /*allowed*/) {
   std::string text = number_text(value);
   return text.find('.') == std::string::npos ? text + ".0" : text;
 }
-std::string value_text(int value) {
+std::string value_text(int value, const Range& /*allowed*/) {
   return std::to_string(value);
 }
-std::string value_text(const std::string& value) {
+std::string value_text(const std::string& value, const Names& /*allowed*/) {
   return value;
+}
+// In quotes, whatever it may look like.
+std::string value_text(const std::string& value, const Text& /*allowed*/) {
+  return "\"" + value + "\"";
 }
 
 std::pair<std::string_view, std::string_view> split_key(std::string_view name) {
@@ -59,7 +63,7 @@ class GroupWriter {
       text_.append("\n# ").append(group_meaning(group)).append(".\n").append(group).append(":\n");
     }
     text_.append("  # ").append(key.meaning).append(" [").append(allowed_text(allowed, key.unit)).append("]\n");
-    text_.append("  ").append(name).append(": ").append(value_text(field)).append("\n");
+    text_.append("  ").append(name).append(": ").append(value_text(field, allowed)).append("\n");
   }
 
  private:
@@ -94,7 +98,11 @@ class TableWriter {
 
   template <class Field, class Allowed>
   void operator()(const Key& key, const Field& field, const Allowed& allowed) {
-    text_.append("| `").append(key.name).append("` | ").append(value_text(field)).append(profile_values(key.name));
+    text_.append("| `")
+        .append(key.name)
+        .append("` | ")
+        .append(value_text(field, allowed))
+        .append(profile_values(key.name));
     text_.append(" | ").append(allowed_text(allowed, key.unit)).append(" | ").append(key.meaning).append(" |\n");
   }
 
@@ -144,6 +152,10 @@ std::string allowed_text(const Range& range, std::string_view unit) {
   if (!unit.empty()) text.append(" ").append(unit);
   if (range.step > 0 && !two_values) text.append(" in steps of ").append(number_text(range.step));
   return text;
+}
+
+std::string allowed_text(const Text& text, std::string_view /*unit*/) {
+  return "text of at most " + std::to_string(text.longest) + " characters";
 }
 
 std::string allowed_text(Names names, std::string_view /*unit*/) {

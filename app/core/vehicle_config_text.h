@@ -23,8 +23,10 @@ std::string markdown_table();
 // Shortest decimal text, without exponent, that reads back as the same number: "0.6", "20".
 std::string number_text(double value);
 
-// "0.05 .. 5 m", "16 .. 512 px in steps of 16", "3 or 5"; names: "stop or slow".
+// "0.05 .. 5 m", "16 .. 512 px in steps of 16", "3 or 5"; names: "stop or slow";
+// "text".
 std::string allowed_text(const Range& range, std::string_view unit);
 std::string allowed_text(Names names, std::string_view unit);
+std::string allowed_text(const Text& text, std::string_view unit);
 
 }  // namespace lakshya

@@ -43,6 +43,12 @@ TEST(VehicleConfigKeys, EveryFieldHasItsKey) {
   EXPECT_EQ(keys["score"], field_count<ScoreConfig>());
   EXPECT_EQ(keys["planner"], field_count<PlannerParams>());
   EXPECT_EQ(keys["vehicle"], field_count<VehicleParams>());
+  EXPECT_EQ(keys["drivers"], field_count<DriversConfig>());
+  EXPECT_EQ(keys["folder"], field_count<FolderConfig>());
+  EXPECT_EQ(keys["record"], field_count<RecordConfig>());
+  EXPECT_EQ(keys["pwm"], field_count<PwmConfig>());
+  EXPECT_EQ(keys["compass"], field_count<CompassConfig>());
+  EXPECT_EQ(keys["odometry"], field_count<OdometryConfig>());
   EXPECT_EQ(keys.size() + 1, static_cast<std::size_t>(field_count<VehicleConfig>()));  // and the profile's name
 }
 
@@ -96,6 +102,11 @@ TEST(VehicleConfigKeys, RangesIncludeTheirEndsOnly) {
       check(key, allowed.max, true);
       check(key, allowed.min - outside, false);
       check(key, allowed.max + outside, false);
+    } else if constexpr (std::is_same_v<std::decay_t<decltype(allowed)>, Text>) {
+      EXPECT_EQ(set_refusal(std::string(key.name) + "=" + std::string(allowed.longest, 'x')), "accepted");
+      for (const std::string& text :
+           {std::string(allowed.longest + 1, 'x'), std::string("a\"b"), std::string("a\nb")})
+        EXPECT_TRUE(contains(set_refusal(std::string(key.name) + "=" + text), "cannot be taken (allowed: text of"));
     } else {
       EXPECT_TRUE(contains(set_refusal(std::string(key.name) + "=nonsense"), "is not known (allowed: "));
     }
@@ -134,6 +145,15 @@ TEST(VehicleConfigText, NumbersAndRanges) {
   EXPECT_EQ(allowed_text(Range{16, 512, 16}, "px"), "16 .. 512 px in steps of 16");
   EXPECT_EQ(allowed_text(Range{3, 5, 2}, ""), "3 or 5");
   EXPECT_EQ(allowed_text(Names{kUnknownNames}, ""), "stop or slow");
+}
+
+TEST(VehicleConfigText, TextIsWrittenSoThatItIsReadAgain) {
+  VehicleConfig config;
+  config.folder.path = "/data/a: b #1 'c' \xc3\xa9";
+  config.record.path = "yes";
+  const VehicleConfig again = parse_vehicle_config(effective_yaml(config), "text", "", {});
+  EXPECT_EQ(again.folder.path, config.folder.path);
+  EXPECT_EQ(again.record.path, config.record.path);
 }
 
 TEST(VehicleConfigSet, Refusals) {
