@@ -21,4 +21,15 @@ std::size_t next_way_point(std::span<const WayPoint> way_points, std::size_t cur
   return next;
 }
 
+WayPoint local_way_point(const GeoPoint& start, const GeoPoint& point) {
+  constexpr double kEquatorRadius = 6378137.0;  // WGS 84: a, and e^2 of 1/f = 298.257223563
+  constexpr double kEccentricity2 = 6.69437999014e-3;
+  const double middle = radians((start.latitude_deg + point.latitude_deg) / 2);
+  const double w2 = 1 - kEccentricity2 * std::sin(middle) * std::sin(middle);
+  const double prime_vertical = kEquatorRadius / std::sqrt(w2);
+  const double meridian = prime_vertical * (1 - kEccentricity2) / w2;
+  const double east = wrap_angle(radians(point.longitude_deg - start.longitude_deg));
+  return {prime_vertical * std::cos(middle) * east, meridian * radians(point.latitude_deg - start.latitude_deg)};
+}
+
 }  // namespace lakshya

@@ -30,4 +30,14 @@ WayPointView view_way_point(const Pose& pose, const WayPoint& way_point);
 std::size_t next_way_point(std::span<const WayPoint> way_points, std::size_t current, const Pose& pose,
                            double radius_m);
 
+// On the WGS 84 ellipsoid, as GNSS receivers give it.
+struct GeoPoint {
+  double latitude_deg = 0;   // positive north
+  double longitude_deg = 0;  // positive east
+};
+
+// `point` in the world frame whose origin is `start`: the way along the meridian and along the parallel half way, with the
+// ellipsoid's radii of curvature there. Over 10 km and below 70 degrees of latitude less than a metre off; not for the poles.
+WayPoint local_way_point(const GeoPoint& start, const GeoPoint& point);
+
 }  // namespace lakshya

@@ -9,6 +9,7 @@
 #include "app/tools/bench_command.h"
 #include "app/tools/compare_command.h"
 #include "app/tools/config_command.h"
+#include "app/tools/devices_command.h"
 #include "app/tools/eval_command.h"
 #include "app/tools/plan_command.h"
 #include "app/tools/process_command.h"
@@ -36,6 +37,7 @@ int run(int argc, char** argv) {
   lakshya::add_profile_command(app);
   lakshya::add_bench_command(app);
   lakshya::add_config_command(app);
+  lakshya::add_devices_command(app);
   try {
     app.parse(argc, argv);
     return kOk;

@@ -39,5 +39,20 @@ TEST(WayPoint, ReachedOnesArePassed) {
   EXPECT_EQ(next_way_point({}, 0, {0, 0, 0}, 0.5), 0U);
 }
 
+// Lengths of a degree on WGS 84 as tables give them (and Vincenty's formula confirms to the centimetre).
+TEST(WayPoint, DegreesBecomeMetres) {
+  EXPECT_NEAR(local_way_point({0, 10}, {0, 11}).east_m, 111319.49, 0.01);
+  EXPECT_NEAR(local_way_point({-0.5, 0}, {0.5, 0}).north_m, 110574.3, 0.2);
+  EXPECT_NEAR(local_way_point({44.5, 7}, {45.5, 7}).north_m, 111131.7, 0.2);
+  EXPECT_NEAR(local_way_point({45, 7}, {45, 8}).east_m, 78846.8, 0.2);
+  const WayPoint south_west = local_way_point({12.9716, 77.5946}, {12.9706, 77.5936});
+  EXPECT_NEAR(south_west.north_m, -110.62, 0.02);
+  EXPECT_NEAR(south_west.east_m, -108.49, 0.02);
+}
+
+TEST(WayPoint, TheDateLineIsNoWay) {
+  EXPECT_NEAR(local_way_point({0, 179.9995}, {0, -179.9995}).east_m, 111.32, 0.01);
+}
+
 }  // namespace
 }  // namespace lakshya
