@@ -72,9 +72,8 @@ Status PwmServo::open() {
     }
   }
   wanted_open_ = true;
-  now_ = {};
-  now_since_ = clock_->now();
-  travel_ = {.measured = false, .time = now_since_};
+  pulses_since_ = clock_->now();
+  travel_.start(pulses_since_);
   return Status::ok;
 }
 
@@ -158,14 +157,6 @@ void PwmServo::close() {
   wanted_open_ = false;
 }
 
-void PwmServo::advance() {
-  const Nanoseconds now = clock_->now();
-  const double seconds = static_cast<double>(now - travel_.time) / static_cast<double>(kSecond);
-  travel_.left_m += now_.left_mps * seconds;
-  travel_.right_m += now_.right_mps * seconds;
-  travel_.time = now;
-}
-
 Status PwmServo::set_pulses(const WheelVelocities& speeds) {
   const std::array<double, 2> wanted = {speeds.left_mps, speeds.right_mps};
   Status result = Status::ok;
@@ -177,11 +168,10 @@ Status PwmServo::set_pulses(const WheelVelocities& speeds) {
                                        static_cast<int>(std::lround(pulse_us * kNanosecondsPerMicrosecond)));
     if (status != Status::ok) result = status;
   }
-  now_ = speeds;
-  now_since_ = clock_->now();
+  pulses_since_ = clock_->now();
+  travel_.set(result == Status::disconnected ? WheelVelocities{} : speeds, pulses_since_);
   if (result == Status::disconnected) {
     ++counters_[kDisconnections].value;
-    now_ = {};
     release();
   }
   return result;
@@ -198,39 +188,33 @@ Status PwmServo::reopen_when_due() {
     release();
     return Status::disconnected;
   }
-  now_ = {};
-  travel_.time = now_since_ = clock_->now();
+  pulses_since_ = clock_->now();
   return Status::ok;
 }
 
 Status PwmServo::drive(const WheelVelocities& wanted, Nanoseconds /*deadline*/) {
   const Status ready = reopen_when_due();
   if (ready != Status::ok) return ready;
-  advance();
-  if (!speeds_allowed(wanted, max_speed_mps())) {
+  if (!speeds_allowed(wanted, *this, problem_)) {
     ++counters_[kRefused].value;
-    problem_.set("%g, %g m/s: faster than %g m/s%s; stopped", wanted.left_mps, wanted.right_mps, max_speed_mps(),
-                 is_supervised() ? "" : ", the limit for drives that nothing stops");
     (void)set_pulses({});
     return Status::refused;
   }
+  const WheelVelocities& now = travel_.speeds();
   const double step =
-      settings_.slew_mps2 * static_cast<double>(travel_.time - now_since_) / static_cast<double>(kSecond);
-  return set_pulses(
-      {towards(now_.left_mps, wanted.left_mps, step), towards(now_.right_mps, wanted.right_mps, step)});
+      settings_.slew_mps2 * static_cast<double>(clock_->now() - pulses_since_) / static_cast<double>(kSecond);
+  return set_pulses({towards(now.left_mps, wanted.left_mps, step), towards(now.right_mps, wanted.right_mps, step)});
 }
 
 Status PwmServo::read_travel(Nanoseconds /*deadline*/, WheelTravel& travel) {
   if (!wanted_open_ || duty_fd_[0] < 0) return Status::disconnected;
-  advance();
-  travel = travel_;
+  travel = travel_.until(clock_->now());
   return Status::ok;
 }
 
 Status PwmServo::stop(Nanoseconds /*deadline*/) {
   const Status ready = reopen_when_due();
   if (ready != Status::ok) return ready;
-  advance();
   return set_pulses({});
 }
 

@@ -11,6 +11,7 @@
 #include "hal/linux/system_calls.h"
 #include "hal/retry.h"
 #include "hal/servo.h"
+#include "hal/servo/commanded_travel.h"
 
 namespace lakshya {
 
@@ -62,7 +63,6 @@ class PwmServo final : public Servo {
   Status write_number(int fd, int side, const char* name, int value);
   Status set_pulses(const WheelVelocities& speeds);
   Status reopen_when_due();
-  void advance();
   void release();
 
   const PwmServoSettings settings_;
@@ -71,9 +71,8 @@ class PwmServo final : public Servo {
   Retry retry_;
   std::array<int, 2> duty_fd_ = {-1, -1};
   bool wanted_open_ = false;  // between open() and close(), the chip there or not
-  WheelVelocities now_;
-  Nanoseconds now_since_ = 0;
-  WheelTravel travel_;
+  CommandedTravel travel_;
+  Nanoseconds pulses_since_ = 0;
   Counter counters_[3] = {{"refused_commands"}, {"write_failures"}, {"disconnections"}};
 };
 

@@ -31,8 +31,7 @@ Status RecordServo::open() {
       return Status::disconnected;
     }
   }
-  now_ = {};
-  travel_ = {.measured = false, .time = clock_->now()};
+  travel_.start(clock_->now());
   open_ = true;
   return Status::ok;
 }
@@ -45,19 +44,12 @@ void RecordServo::close() {
   open_ = false;
 }
 
-void RecordServo::advance() {
-  const Nanoseconds now = clock_->now();
-  const double seconds = static_cast<double>(now - travel_.time) / static_cast<double>(kSecond);
-  travel_.left_m += now_.left_mps * seconds;
-  travel_.right_m += now_.right_mps * seconds;
-  travel_.time = now;
-}
-
 Status RecordServo::write_line() {
   if (fd_ < 0) return Status::ok;
   char line[96];
   const double seconds = static_cast<double>(clock_->now()) / static_cast<double>(kSecond);
-  const int length = std::snprintf(line, sizeof line, "%.6f,%.4f,%.4f\n", seconds, now_.left_mps, now_.right_mps);
+  const int length =
+      std::snprintf(line, sizeof line, "%.6f,%.4f,%.4f\n", seconds, last().left_mps, last().right_mps);
   // The file is open for appending: where it is written does not depend on an offset.
   const long written = system_->write_at_start(fd_, {line, static_cast<std::size_t>(length)});
   if (written == length) return Status::ok;
@@ -69,22 +61,17 @@ Status RecordServo::write_line() {
 
 Status RecordServo::drive(const WheelVelocities& wanted, Nanoseconds /*deadline*/) {
   if (!open_) return Status::disconnected;
-  advance();
-  const bool allowed = speeds_allowed(wanted, settings_.max_speed_mps);
-  now_ = allowed ? wanted : WheelVelocities{};
+  const bool allowed = speeds_allowed(wanted, *this, problem_);
+  travel_.set(allowed ? wanted : WheelVelocities{}, clock_->now());
   ++counters_[kCommands].value;
+  if (!allowed) ++counters_[kRefused].value;
   const Status written = write_line();
-  if (allowed) return written;
-  ++counters_[kRefused].value;
-  problem_.set("%g, %g m/s: faster than %g m/s; stopped", wanted.left_mps, wanted.right_mps,
-               settings_.max_speed_mps);
-  return Status::refused;
+  return allowed ? written : Status::refused;
 }
 
 Status RecordServo::read_travel(Nanoseconds /*deadline*/, WheelTravel& travel) {
   if (!open_) return Status::disconnected;
-  advance();
-  travel = travel_;
+  travel = travel_.until(clock_->now());
   return Status::ok;
 }
 

@@ -5,6 +5,7 @@
 
 #include "hal/linux/system_calls.h"
 #include "hal/servo.h"
+#include "hal/servo/commanded_travel.h"
 
 namespace lakshya {
 
@@ -34,10 +35,9 @@ class RecordServo final : public Servo {
   double max_speed_mps() const override { return settings_.max_speed_mps; }
   bool is_supervised() const override { return true; }  // nothing turns
 
-  const WheelVelocities& last() const { return now_; }
+  const WheelVelocities& last() const { return travel_.speeds(); }
 
  private:
-  void advance();
   Status write_line();
 
   const RecordServoSettings settings_;
@@ -45,8 +45,7 @@ class RecordServo final : public Servo {
   SystemCalls* system_;
   bool open_ = false;
   int fd_ = -1;
-  WheelVelocities now_;
-  WheelTravel travel_;
+  CommandedTravel travel_;
   Counter counters_[3] = {{"commands"}, {"refused_commands"}, {"write_failures"}};
 };
 

@@ -16,9 +16,8 @@ void SimServo::close() {
 
 Status SimServo::drive(const WheelVelocities& wanted, Nanoseconds /*deadline*/) {
   if (!open_) return Status::disconnected;
-  if (speeds_allowed(wanted, max_speed_mps_)) return producer_->command(clock_->now(), wanted);
+  if (speeds_allowed(wanted, *this, problem_)) return producer_->command(clock_->now(), wanted);
   ++counters_[0].value;
-  problem_.set("%g, %g m/s: faster than %g m/s; stopped", wanted.left_mps, wanted.right_mps, max_speed_mps_);
   (void)producer_->command(clock_->now(), {});
   return Status::refused;
 }
