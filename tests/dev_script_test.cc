@@ -197,6 +197,7 @@ TEST_F(DevScript, FuzzesTheReadersAndNamesTheReproducer) {
   EXPECT_TRUE(contains(one.output, "--target fuzz_png\n")) << one.output;
   EXPECT_TRUE(contains(one.output, "ran build/fuzz/corpus/png -max_total_time=3 ")) << one.output;
   EXPECT_TRUE(contains(one.output, "reproducer: build/fuzz/found/png-crash-1\n")) << one.output;
+  EXPECT_TRUE(contains(dev("fuzz png map_json 3").output, "--target fuzz_png fuzz_map_json\n"));
   EXPECT_EQ(dev("fuzz 3").status, 1);
 
   const Result unknown = dev("fuzz bmp");
