@@ -68,7 +68,8 @@ Status rounded(double value, double lowest, double highest, std::int32_t& units)
 
 }  // namespace
 
-CommandText::CommandText(int address, Command command, std::initializer_list<std::int32_t> parameters) {
+CommandText::CommandText(int address, Command command, std::initializer_list<std::int32_t> parameters)
+    : command_(command) {
   append('@', address);
   append(' ', static_cast<int>(command));
   for (const std::int32_t parameter : parameters)

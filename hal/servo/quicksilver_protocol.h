@@ -36,11 +36,13 @@ inline constexpr int kNakBusy = 2;
 class CommandText {
  public:
   CommandText(int address, Command command, std::initializer_list<std::int32_t> parameters);
+  Command command() const { return command_; }
   std::span<const std::uint8_t> bytes() const { return {text_.data(), size_}; }
 
  private:
   void append(char mark, std::int32_t number);
 
+  Command command_;
   std::array<std::uint8_t, 80> text_{};  // room for six numbers of 11 characters
   std::size_t size_ = 0;
 };

@@ -1,0 +1,192 @@
+// How the drives are found, set up and seen to be supervised.
+#include <algorithm>
+#include <cmath>
+
+#include "hal/servo/quicksilver.h"
+
+namespace lakshya {
+
+using quicksilver::Command;
+
+namespace {
+
+constexpr Nanoseconds kTryEvery = 200 * kMillisecond;
+constexpr Nanoseconds kOpenTime = 2 * kSecond;
+constexpr int kOpenTries = 3;  // a reply may get lost
+constexpr Nanoseconds kCloseTime = 100 * kMillisecond;
+constexpr std::int32_t kTrialVelocity = 1;  // units; no wheel moves by it
+constexpr double kTrialPatience = 1.5;      // the program's rounds make its time a little longer
+
+}  // namespace
+
+Status QuickSilver::open() {
+  close();
+  Status status = check_settings(settings_, problem_);
+  if (status != Status::ok) return status;
+  for (std::size_t d : {0, 1}) {
+    drives_[d] = {};
+    drives_[d].travel.start(metres_per_count(wheel(d)), settings_.max_speed_mps);
+    const double rpm_per_s = settings_.max_acceleration_mps2 * std::abs(motor_rpm_per_mps(wheel(d)));
+    status = quicksilver::acceleration_units(rpm_per_s / 60, drives_[d].acceleration);
+    if (status != Status::ok) return status;
+  }
+  start_over();
+  next_try_ = 0;
+  status = link_.open();
+  if (status != Status::ok) return status;
+  opened_ = true;
+  const Nanoseconds deadline = clock_->now() + kOpenTime;
+  for (int tries = 0; tries < kOpenTries; ++tries) {
+    status = set_up(deadline);
+    if (status != Status::timeout && status != Status::bad_data) break;
+  }
+  if (status == Status::ok) return status;
+  const Problem why = problem_;
+  close();
+  problem_ = why;
+  return status;
+}
+
+void QuickSilver::close() {
+  if (!opened_) return;
+  opened_ = false;
+  if (link_.is_open()) (void)stop_both(0, clock_->now() + kCloseTime);
+  link_.close();
+}
+
+void QuickSilver::start_over() {
+  step_ = Step::stop;
+  step_drive_ = 0;
+}
+
+Status QuickSilver::reopen() {
+  start_over();
+  const Status opened = link_.open();
+  if (opened != Status::ok) next_try_ = clock_->now() + kTryEvery;
+  return opened;
+}
+
+Status QuickSilver::be_ready(Nanoseconds deadline) {
+  if (!opened_) {
+    problem_.set("drives: not open");
+    return Status::disconnected;
+  }
+  if (link_.is_open() && step_ == Step::done) return Status::ok;
+  if (clock_->now() < next_try_) return last_try_;
+  last_try_ = link_.is_open() ? Status::ok : reopen();
+  if (last_try_ != Status::ok) return last_try_;
+  last_try_ = set_up(deadline);
+  if (last_try_ == Status::ok || last_try_ == Status::timeout) return last_try_;
+  start_over();
+  next_try_ = clock_->now() + kTryEvery;
+  return last_try_;
+}
+
+// As many steps as there is time for; the next call goes on.
+Status QuickSilver::set_up(Nanoseconds deadline) {
+  while (step_ != Step::done) {
+    const bool wait = step_ == Step::heartbeat_again && step_drive_ == 0;
+    const Nanoseconds begin = wait ? std::max(trial_end_, clock_->now()) : clock_->now();
+    if (begin + QuickSilverLink::kCommandTime > deadline) {
+      problem_.set("drives: are being set up");
+      return Status::timeout;
+    }
+    clock_->sleep_until(begin);
+    const Status status = take_step(step_drive_, deadline);
+    if (status != Status::ok) return status;
+    finish_step();
+  }
+  return Status::ok;
+}
+
+void QuickSilver::finish_step() {
+  step_drive_ = 1 - step_drive_;
+  if (step_drive_ != 0) return;
+  step_ = step_ == Step::position && !settings_.supervised ? Step::done
+                                                           : static_cast<Step>(static_cast<int>(step_) + 1);
+}
+
+Status QuickSilver::take_step(std::size_t drive, Nanoseconds deadline) {
+  switch (step_) {
+    case Step::stop:
+      return stop_drive(drive, deadline);
+    case Step::position: {
+      std::int32_t position = 0;
+      const Status status = link_.read_register(drive, quicksilver::kPositionRegister, deadline, position);
+      if (status == Status::ok) (void)drives_[drive].travel.take(position, clock_->now());
+      return status;
+    }
+    case Step::signature:
+      return see_signature(drive, deadline);
+    case Step::acceleration:
+      return link_.command(
+          drive, to(drive, Command::write_register, {settings_.velocity_register - 1, drives_[drive].acceleration}),
+          deadline);
+    case Step::acceleration_again:
+      return see_acceleration(drive, deadline);
+    case Step::heartbeat:
+      return see_heartbeat(drive, deadline);
+    case Step::trial:
+      drives_[drive].told_to_stop = false;
+      trial_end_ = clock_->now() + as_nanoseconds(kTrialPatience * settings_.watchdog_s);
+      return link_.command(drive, to(drive, Command::write_register, {settings_.velocity_register, kTrialVelocity}),
+                           deadline);
+    case Step::heartbeat_again:
+      return see_heartbeat_move(drive, deadline);
+    case Step::trial_again:
+      return see_velocity_zeroed(drive, deadline);
+    case Step::done:
+      break;
+  }
+  return Status::ok;
+}
+
+Status QuickSilver::see_signature(std::size_t drive, Nanoseconds deadline) {
+  std::int32_t signature = 0;
+  const Status status = link_.read_register(drive, settings_.signature_register, deadline, signature);
+  if (status != Status::ok || signature == kQuickSilverSignature) return status;
+  counters_.add(QuickSilverCounters::dead_programs);
+  problem_.set("drive %d: no resident program: signature register %d holds %d instead of %d", wheel(drive).address,
+               settings_.signature_register, signature, kQuickSilverSignature);
+  return Status::refused;
+}
+
+Status QuickSilver::see_acceleration(std::size_t drive, Nanoseconds deadline) {
+  std::int32_t acceleration = 0;
+  const Status status = link_.read_register(drive, settings_.velocity_register - 1, deadline, acceleration);
+  if (status != Status::ok || acceleration == drives_[drive].acceleration) return status;
+  problem_.set("drive %d: register %d holds %d instead of the acceleration %d", wheel(drive).address,
+               settings_.velocity_register - 1, acceleration, drives_[drive].acceleration);
+  return Status::refused;
+}
+
+Status QuickSilver::see_heartbeat(std::size_t drive, Nanoseconds deadline) {
+  const Status status =
+      link_.read_register(drive, settings_.heartbeat_register, deadline, drives_[drive].heartbeat);
+  if (status == Status::ok) drives_[drive].heartbeat_time = clock_->now();
+  return status;
+}
+
+Status QuickSilver::see_heartbeat_move(std::size_t drive, Nanoseconds deadline) {
+  const std::int32_t before = drives_[drive].heartbeat;
+  const Status status = see_heartbeat(drive, deadline);
+  if (status != Status::ok) return status;
+  const std::int64_t beats = quicksilver::counts_between(before, drives_[drive].heartbeat);
+  if (beats == 0) return program_is_dead(drive, "its heartbeat stands still");
+  return beats > 0 ? Status::ok : program_is_dead(drive, "it has started anew");
+}
+
+Status QuickSilver::see_velocity_zeroed(std::size_t drive, Nanoseconds deadline) {
+  std::int32_t velocity = 0;
+  const Status status = link_.read_register(drive, settings_.velocity_register, deadline, velocity);
+  if (status != Status::ok || velocity == 0) return status;
+  return program_is_dead(drive, "it does not zero a velocity that nobody keeps alive");
+}
+
+Status QuickSilver::program_is_dead(std::size_t drive, const char* why) {
+  counters_.add(QuickSilverCounters::dead_programs);
+  problem_.set("drive %d: resident program: %s", wheel(drive).address, why);
+  return Status::refused;
+}
+
+}  // namespace lakshya

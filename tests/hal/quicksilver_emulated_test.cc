@@ -1,0 +1,357 @@
+// The driver against emulated drives: first on a clock that only moves when somebody waits, then over a pseudo-terminal in real
+// time.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <optional>
+#include <ostream>
+#include <string>
+
+#include "hal/clock/monotonic_clock.h"
+#include "hal/serial/tty_port.h"
+#include "hal/servo/quicksilver.h"
+#include "tests/emulators/on_terminal.h"
+#include "tests/emulators/quicksilver_drive.h"
+#include "tests/support/line_device_port.h"
+#include "tests/support/manual_clock.h"
+#include "tests/support/temp_folder.h"
+
+namespace lakshya {
+namespace {
+
+// Wheels of 0.6 m a turn, motors of 10 turns for it: 8000 counts are 0.06 m. The right motor is mounted the other way round.
+constexpr double kMetresPerCount = 0.06 / 8000;
+
+QuickSilverSettings settings_of_test() {
+  const double radius = 0.3 / std::numbers::pi;
+  QuickSilverSettings settings;
+  settings.left = {.address = 16, .direction = 1, .radius_m = radius, .gear_ratio = 10};
+  settings.right = {.address = 17, .direction = -1, .radius_m = radius, .gear_ratio = 10};
+  settings.max_acceleration_mps2 = 2;
+  return settings;
+}
+
+double left_m(const emulator::QuickSilverState& state) {
+  return state.position * kMetresPerCount;
+}
+double right_m(const emulator::QuickSilverState& state) {
+  return -state.position * kMetresPerCount;
+}
+double speed_mps(const emulator::QuickSilverState& state) {
+  return std::abs(state.velocity_rpm) * 0.06 / 60;
+}
+
+// ---- on a clock of our own
+
+class QuickSilverEmulatedTest : public testing::Test {
+ protected:
+  Nanoseconds in_ms(int ms) const { return clock_.now() + ms * kMillisecond; }
+
+  // A period of 60 ms: both calls, each with half of it. Returns how many of the two failed.
+  int one_period(const WheelVelocities& wanted) {
+    const Nanoseconds end = in_ms(60);
+    int failures = 0;
+    if (servo_.drive(wanted, in_ms(30)) != Status::ok) ++failures;
+    if (servo_.read_travel(in_ms(30), travel_) != Status::ok) ++failures;
+    EXPECT_LE(clock_.now(), end);
+    clock_.sleep_until(end);
+    return failures;
+  }
+
+  int drive_for(double seconds, const WheelVelocities& wanted) {
+    int failures = 0;
+    for (const Nanoseconds end = clock_.now() + static_cast<Nanoseconds>(seconds * kSecond); clock_.now() < end;)
+      failures += one_period(wanted);
+    return failures;
+  }
+
+  emulator::QuickSilverState state(std::size_t index) { return line_.state(index, clock_.now()); }
+
+  void expect_travel_is_true() {
+    ASSERT_EQ(servo_.read_travel(in_ms(100), travel_), Status::ok) << servo_.problem();
+    const auto left = state(0);
+    const auto right = state(1);
+    EXPECT_NEAR(travel_.left_m, left_m(left) - left_start_, 0.01 * std::abs(left_m(left) - left_start_) + 0.01);
+    EXPECT_NEAR(travel_.right_m, right_m(right) - right_start_,
+                0.01 * std::abs(right_m(right) - right_start_) + 0.01);
+  }
+
+  ManualClock clock_;
+  emulator::QuickSilverLine line_;
+  LineDevicePort port_{line_, clock_};
+  QuickSilver servo_{settings_of_test(), port_, clock_};
+  WheelTravel travel_;
+  double left_start_ = 0;
+  double right_start_ = 0;
+};
+
+// 600 s at up to 1 m/s, 133 000 counts a second: the left position crosses the wrap after 75 s, the right one after 200 s.
+TEST_F(QuickSilverEmulatedTest, TenMinutesAcrossTheWrap) {
+  line_.drive(0).set_position((1LL << 31) - 10'000'000);
+  line_.drive(1).set_position(-(1LL << 31) + 10'000'000);
+  left_start_ = left_m(state(0));
+  right_start_ = right_m(state(1));
+  ASSERT_EQ(servo_.open(), Status::ok) << servo_.problem();
+  for (int i = 0; i < 30; ++i) {
+    EXPECT_EQ(drive_for(10, {.left_mps = 1, .right_mps = 0.5}), 0) << servo_.problem();
+    EXPECT_EQ(drive_for(8, {.left_mps = -0.2, .right_mps = -0.1}), 0) << servo_.problem();
+    EXPECT_EQ(drive_for(2, {}), 0) << servo_.problem();
+  }
+  expect_travel_is_true();
+  EXPECT_GT(travel_.left_m, 240);
+  EXPECT_GT(travel_.right_m, 120);
+  for (const Counter& counter : servo_.counters())
+    EXPECT_EQ(counter.value, 0U) << counter.name;
+}
+
+// The line times that hal/servo/quicksilver.h states, and 0.5 ms a command that these drives take to begin to answer.
+TEST_F(QuickSilverEmulatedTest, TheLineTakesAsLongAsStated) {
+  QuickSilverSettings settings = settings_of_test();
+  settings.max_speed_mps = 3.9;
+  QuickSilver servo(settings, port_, clock_);
+  ASSERT_EQ(servo.open(), Status::ok) << servo.problem();
+  clock_.advance(100 * kMillisecond);
+  const auto took_ms = [&](auto&& call) {
+    const Nanoseconds begin = clock_.now();
+    EXPECT_EQ(call(), Status::ok) << servo.problem();
+    return static_cast<double>(clock_.now() - begin) / kMillisecond;
+  };
+  // -2093796556 units; the right one has no sign, which is a character less.
+  EXPECT_NEAR(took_ms([&] { return servo.drive({-3.9, -3.9}, in_ms(50)); }), 16.8 - 0.2 + 4 * 0.5, 0.3);
+  EXPECT_NEAR(took_ms([&] { return servo.stop(in_ms(50)); }), 6.5 + 2 * 0.5, 0.2);
+  EXPECT_NEAR(took_ms([&] { return servo.read_travel(in_ms(50), travel_); }), 11.1 + 2 * 0.5, 0.2);
+}
+
+TEST_F(QuickSilverEmulatedTest, WhenTheHostGoesSilentTheWheelsStand) {
+  ASSERT_EQ(servo_.open(), Status::ok) << servo_.problem();
+  ASSERT_EQ(drive_for(2, {.left_mps = 0.1, .right_mps = 0.1}), 0);
+  EXPECT_NEAR(speed_mps(state(0)), 0.1, 1e-6);
+  // 200 ms, a round of the program, and 50 ms to slow down from 0.1 m/s at 2 m/s^2.
+  clock_.advance(262 * kMillisecond);
+  EXPECT_EQ(speed_mps(state(0)), 0);
+  EXPECT_EQ(speed_mps(state(1)), 0);
+  EXPECT_TRUE(state(0).tripped && state(1).tripped);
+  EXPECT_EQ(drive_for(1, {.left_mps = 0.1, .right_mps = 0.1}), 0) << servo_.problem();
+  EXPECT_NEAR(speed_mps(state(0)), 0.1, 1e-6) << "and go on when it is back";
+}
+
+TEST_F(QuickSilverEmulatedTest, WithoutResidentProgramsItIsRefused) {
+  for (const bool at_power_up : {true, false}) {
+    emulator::QuickSilverLine line({16, 17}, {.at_power_up = at_power_up, .zeroes_velocity = false});
+    LineDevicePort port(line, clock_);
+    QuickSilver servo(settings_of_test(), port, clock_);
+    EXPECT_EQ(servo.open(), Status::refused);
+    EXPECT_NE(std::string(servo.problem()).find("resident program"), std::string::npos) << servo.problem();
+  }
+}
+
+TEST_F(QuickSilverEmulatedTest, AnUnsupervisedHostThatGoesSilentLeavesThemTurning) {
+  QuickSilverSettings settings = settings_of_test();
+  settings.supervised = false;
+  QuickSilver servo(settings, port_, clock_);
+  ASSERT_EQ(servo.open(), Status::ok) << servo.problem();
+  ASSERT_EQ(servo.drive({.left_mps = 0.3, .right_mps = -0.3}, in_ms(20)), Status::ok) << servo.problem();
+  clock_.advance(10 * kSecond);
+  EXPECT_NEAR(speed_mps(state(0)), 0.3, 1e-6) << "which is why max_speed_mps() is small";
+  ASSERT_EQ(servo.read_travel(in_ms(20), travel_), Status::ok) << servo.problem();
+  EXPECT_NEAR(travel_.left_m, 3, 0.05);
+  EXPECT_NEAR(travel_.right_m, -3, 0.05);
+  servo.close();
+  clock_.advance(kSecond);
+  EXPECT_EQ(speed_mps(state(0)), 0);
+  EXPECT_EQ(speed_mps(state(1)), 0);
+}
+
+// A drive that has lost its power in the middle of a run, and gets it back.
+TEST_F(QuickSilverEmulatedTest, ADriveWithoutPowerStopsTheOtherAndComesBack) {
+  ASSERT_EQ(servo_.open(), Status::ok) << servo_.problem();
+  ASSERT_EQ(drive_for(4, {.left_mps = 0.5, .right_mps = 0.5}), 0);
+  line_.silent_address = 17;
+  EXPECT_EQ(servo_.drive({.left_mps = 0.5, .right_mps = 0.5}, in_ms(20)), Status::timeout);
+  clock_.advance(kSecond);
+  EXPECT_EQ(speed_mps(state(0)), 0);
+  line_.drive(1).restart();
+  line_.silent_address = 0;
+  (void)drive_for(4, {.left_mps = 0.5, .right_mps = 0.5});
+  EXPECT_EQ(drive_for(2, {.left_mps = 0.5, .right_mps = 0.5}), 0) << servo_.problem();
+  EXPECT_NEAR(speed_mps(state(1)), 0.5, 1e-6);
+  // The way until it was noticed is lost; what comes after counts.
+  const WheelTravel before = travel_;
+  ASSERT_EQ(drive_for(4, {.left_mps = 0.5, .right_mps = 0.5}), 0);
+  EXPECT_NEAR(travel_.right_m - before.right_m, 2, 0.02);
+}
+
+constexpr int kAll = 334;  // for drives that cannot answer within 30 ms, or will not
+
+struct Fault {
+  const char* name;
+  void (*turn)(emulator::QuickSilverLine& line);
+  int worst_failures;  // of kAll calls
+};
+
+void PrintTo(const Fault& fault, std::ostream* out) {
+  *out << fault.name;
+}
+
+class QuickSilverFaultTest : public QuickSilverEmulatedTest, public testing::WithParamInterface<Fault> {};
+
+// 10 s at 0.5 m/s with a fault that comes again and again: the driver never runs late, the travel that it reports stays true, and
+// the wheels never go faster than asked.
+TEST_P(QuickSilverFaultTest, TheTravelStaysTrue) {
+  ASSERT_EQ(servo_.open(), Status::ok) << servo_.problem();
+  GetParam().turn(line_);
+  const int failures = drive_for(10, {.left_mps = 0.5, .right_mps = 0.25});
+  EXPECT_LE(failures, GetParam().worst_failures) << servo_.problem();
+  EXPECT_LE(speed_mps(state(0)), 0.5 + 1e-6);
+  line_.nak_every = line_.silent_every = line_.garbage_every = 0;
+  line_.split = line_.merge = line_.checksum_errors = false;
+  line_.slow_ns = 0;
+  (void)drive_for(
+      1, {.left_mps = 0.5, .right_mps = 0.25});  // where naks ended the programs' setting up, it begins anew
+  expect_travel_is_true();
+  ASSERT_EQ(drive_for(2, {.left_mps = 0.5, .right_mps = 0.25}), 0) << servo_.problem();
+  EXPECT_NEAR(speed_mps(state(0)), 0.5, 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryKind, QuickSilverFaultTest,
+                         testing::Values(Fault{"busy", [](auto& line) { line.nak_every = 10; }, 0},
+                                         Fault{"refused",
+                                               [](auto& line) { line.nak_every = 25, line.nak_code = 6; }, 80},
+                                         Fault{"silent", [](auto& line) { line.silent_every = 40; }, 80},
+                                         Fault{"garbage", [](auto& line) { line.garbage_every = 7; }, 0},
+                                         Fault{"split", [](auto& line) { line.split = true; }, kAll},
+                                         Fault{"merged", [](auto& line) { line.merge = true; }, 0},
+                                         Fault{"slow", [](auto& line) { line.slow_ns = 15 * kMillisecond; }, kAll},
+                                         Fault{"checksums", [](auto& line) { line.checksum_errors = true; }, kAll}),
+                         [](const auto& of) { return std::string(of.param.name); });
+
+TEST_F(QuickSilverEmulatedTest, SlowAndSplitRepliesAreFineWithTimeEnough) {
+  line_.split = true;
+  line_.slow_ns = 5 * kMillisecond;
+  ASSERT_EQ(servo_.open(), Status::ok) << servo_.problem();
+  for (int i = 0; i < 50; ++i) {
+    EXPECT_EQ(servo_.drive({.left_mps = 0.5, .right_mps = 0.5}, in_ms(80)), Status::ok) << servo_.problem();
+    EXPECT_EQ(servo_.read_travel(in_ms(80), travel_), Status::ok) << servo_.problem();
+  }
+  expect_travel_is_true();
+}
+
+// ---- over a pseudo-terminal
+
+class QuickSilverOnTerminalTest : public testing::Test {
+ protected:
+  Nanoseconds in_ms(int ms) const { return clock_.now() + ms * kMillisecond; }
+
+  int drive_for(int ms, const WheelVelocities& wanted) {
+    int failures = 0;
+    for (const Nanoseconds end = in_ms(ms); clock_.now() < end;) {
+      const Nanoseconds next = in_ms(60);
+      if (servo_.drive(wanted, in_ms(200)) != Status::ok) ++failures;
+      if (servo_.read_travel(in_ms(200), travel_) != Status::ok) ++failures;
+      clock_.sleep_until(next);
+    }
+    return failures;
+  }
+
+  emulator::QuickSilverState state(std::size_t index) {
+    const auto lock = terminal_->locked();
+    return line_.state(index, emulator::monotonic_ns());
+  }
+
+  void wait_until_both_stand() {
+    for (int i = 0; i < 100 && (speed_mps(state(0)) > 0 || speed_mps(state(1)) > 0); ++i)
+      clock_.sleep_until(in_ms(10));
+  }
+
+  // As udev gives an adapter the same name wherever it is plugged in.
+  std::string linked_path() const {
+    const std::string link = folder_.path("drives");
+    std::filesystem::remove(link);
+    std::filesystem::create_symlink(terminal_->path(), link);
+    return link;
+  }
+
+  MonotonicClock clock_;
+  emulator::QuickSilverLine line_;
+  std::optional<emulator::OnTerminal> terminal_{line_};
+  TempFolder folder_;
+  std::string path_ = linked_path();
+  TtyPort port_{{.path = path_, .baud = 57600, .stop_bits = 2}, clock_};
+  QuickSilver servo_{settings_of_test(), port_, clock_};
+  WheelTravel travel_;
+};
+
+TEST_F(QuickSilverOnTerminalTest, AStraightAndATurnThenSilence) {
+  ASSERT_EQ(servo_.open(), Status::ok) << servo_.problem();
+  EXPECT_EQ(drive_for(1000, {.left_mps = 0.5, .right_mps = 0.5}), 0) << servo_.problem();
+  EXPECT_EQ(drive_for(1000, {.left_mps = 0.3, .right_mps = -0.3}), 0) << servo_.problem();
+  ASSERT_EQ(servo_.stop(in_ms(200)), Status::ok) << servo_.problem();
+  wait_until_both_stand();
+  ASSERT_EQ(servo_.read_travel(in_ms(200), travel_), Status::ok) << servo_.problem();
+  const double left = left_m(state(0));
+  const double right = right_m(state(1));
+  EXPECT_GT(left, 0.5);
+  EXPECT_NEAR(travel_.left_m, left, 0.01 * left);
+  EXPECT_NEAR(travel_.right_m, right, 0.01 * std::abs(right) + 1e-4);
+
+  ASSERT_EQ(drive_for(500, {.left_mps = 0.1, .right_mps = 0.1}), 0) << servo_.problem();
+  ASSERT_GT(speed_mps(state(0)), 0.05);
+  const Nanoseconds fed = clock_.now();
+  wait_until_both_stand();
+  const double stood_after = static_cast<double>(clock_.now() - fed) / kSecond;
+  EXPECT_LT(stood_after, 0.3);
+  RecordProperty("stood_after_ms", static_cast<int>(stood_after * 1000));
+}
+
+TEST_F(QuickSilverOnTerminalTest, UnpluggedMidDriveTheWheelsStandAndItGoesOnWhenThePlugIsBack) {
+  ASSERT_EQ(servo_.open(), Status::ok) << servo_.problem();
+  ASSERT_EQ(drive_for(300, {.left_mps = 0.1, .right_mps = 0.1}), 0) << servo_.problem();
+  terminal_->unplug();
+  EXPECT_EQ(servo_.drive({.left_mps = 0.1, .right_mps = 0.1}, in_ms(100)), Status::disconnected);
+  EXPECT_EQ(servo_.read_travel(in_ms(100), travel_), Status::disconnected);
+  wait_until_both_stand();
+  EXPECT_EQ(speed_mps(state(0)), 0);
+  EXPECT_TRUE(state(0).tripped);
+
+  terminal_.reset();
+  terminal_.emplace(line_);
+  (void)linked_path();
+  Status status = Status::disconnected;
+  for (const Nanoseconds end = in_ms(3000); status != Status::ok && clock_.now() < end;) {
+    status = servo_.drive({.left_mps = 0.1, .right_mps = 0.1}, in_ms(100));
+    if (status != Status::ok) clock_.sleep_until(in_ms(20));
+  }
+  EXPECT_EQ(status, Status::ok) << servo_.problem();
+  EXPECT_EQ(drive_for(300, {.left_mps = 0.1, .right_mps = 0.1}), 0) << servo_.problem();
+  EXPECT_NEAR(travel_.left_m, left_m(state(0)), 0.01 * travel_.left_m + 0.01);
+}
+
+TEST_F(QuickSilverOnTerminalTest, FaultsInRealTime) {
+  ASSERT_EQ(servo_.open(), Status::ok) << servo_.problem();
+  {
+    const auto lock = terminal_->locked();
+    line_.nak_every = 11;
+    line_.garbage_every = 5;
+    line_.silent_every = 47;
+    line_.split = true;
+  }
+  (void)drive_for(800, {.left_mps = 0.2, .right_mps = 0.2});
+  {
+    const auto lock = terminal_->locked();
+    line_.nak_every = line_.garbage_every = line_.silent_every = 0;
+    line_.split = false;
+    line_.merge = true;
+  }
+  clock_.sleep_until(in_ms(60));
+  EXPECT_EQ(drive_for(300, {.left_mps = 0.2, .right_mps = 0.2}), 0) << servo_.problem();
+  ASSERT_EQ(servo_.stop(in_ms(200)), Status::ok) << servo_.problem();
+  wait_until_both_stand();
+  ASSERT_EQ(servo_.read_travel(in_ms(200), travel_), Status::ok) << servo_.problem();
+  EXPECT_NEAR(travel_.left_m, left_m(state(0)), 0.01 * travel_.left_m);
+  EXPECT_GT(travel_.left_m, 0.05);
+}
+
+}  // namespace
+}  // namespace lakshya
