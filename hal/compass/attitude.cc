@@ -1,0 +1,36 @@
+#include "hal/compass/attitude.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lakshya {
+
+double wrapped_angle(double rad) {
+  const double near = std::remainder(rad, 2 * std::numbers::pi);
+  return near <= -std::numbers::pi ? std::numbers::pi : near;
+}
+
+HeadingSample seen_from_vehicle(const HeadingSample& device, double mounting) {
+  HeadingSample vehicle = device;
+  const double c = std::cos(mounting);
+  const double s = std::sin(mounting);
+  if (std::isnan(device.pitch) || std::isnan(device.roll)) {
+    vehicle.pitch = vehicle.roll = std::numeric_limits<double>::quiet_NaN();
+    vehicle.yaw = wrapped_angle(device.yaw - mounting);
+    return vehicle;
+  }
+  // The vehicle's forward axis is (c, -s, 0) in the device's axes (forward, left, up); here it is, levelled.
+  const double forward = std::cos(device.pitch) * c + std::sin(device.pitch) * s * std::sin(device.roll);
+  const double left = -s * std::cos(device.roll);
+  vehicle.yaw = wrapped_angle(device.yaw + std::atan2(left, forward));
+  // The up direction in the device's axes, turned into the vehicle's.
+  const double up_x = std::sin(device.pitch);
+  const double up_y = std::cos(device.pitch) * std::sin(device.roll);
+  const double up_z = std::cos(device.pitch) * std::cos(device.roll);
+  vehicle.pitch = std::asin(std::clamp(c * up_x - s * up_y, -1.0, 1.0));
+  vehicle.roll = std::atan2(s * up_x + c * up_y, up_z);
+  return vehicle;
+}
+
+}  // namespace lakshya

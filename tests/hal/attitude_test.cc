@@ -1,0 +1,81 @@
+#include "hal/compass/attitude.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace lakshya {
+namespace {
+
+using Matrix = std::array<std::array<double, 3>, 3>;
+
+Matrix times(const Matrix& a, const Matrix& b) {
+  Matrix out{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      for (std::size_t k = 0; k < 3; ++k)
+        out[i][j] += a[i][k] * b[k][j];
+    }
+  }
+  return out;
+}
+
+Matrix about_x(double a) {
+  return {{{1, 0, 0}, {0, std::cos(a), -std::sin(a)}, {0, std::sin(a), std::cos(a)}}};
+}
+Matrix about_y(double a) {
+  return {{{std::cos(a), 0, std::sin(a)}, {0, 1, 0}, {-std::sin(a), 0, std::cos(a)}}};
+}
+Matrix about_z(double a) {
+  return {{{std::cos(a), -std::sin(a), 0}, {std::sin(a), std::cos(a), 0}, {0, 0, 1}}};
+}
+
+// From body axes (forward, left, up) to the world's (east, north, up).
+Matrix rotation_of(const HeadingSample& s) {
+  return times(about_z(s.yaw), times(about_y(-s.pitch), about_x(s.roll)));
+}
+
+TEST(Attitude, AnglesAreWrappedIntoHalfOpenTurn) {
+  const double pi = std::numbers::pi;
+  EXPECT_EQ(wrapped_angle(pi), pi);
+  EXPECT_EQ(wrapped_angle(-pi), pi);
+  EXPECT_EQ(wrapped_angle(0), 0);
+  EXPECT_NEAR(wrapped_angle(pi + 0.25), 0.25 - pi, 1e-12);
+  EXPECT_NEAR(wrapped_angle(-9 * pi - 0.25), pi - 0.25, 1e-12);
+}
+
+// The device turned by the mounting from the vehicle, written with matrices.
+TEST(Attitude, AgreesWithRotationMatrices) {
+  for (const double yaw : {-3.0, -0.4, 0.0, 2.1}) {
+    for (const double pitch : {-1.2, -0.3, 0.0, 0.7}) {
+      for (const double roll : {-2.5, -0.2, 0.0, 0.9}) {
+        for (const double mounting : {-3.1, -0.5, 0.0, 0.1, 1.5707963}) {
+          const Matrix vehicle = rotation_of({.yaw = yaw, .pitch = pitch, .roll = roll});
+          const Matrix device = times(vehicle, about_z(mounting));
+          // The device's own angles, read off its matrix.
+          const HeadingSample measured = {.yaw = std::atan2(device[1][0], device[0][0]),
+                                          .pitch = std::asin(device[2][0]),
+                                          .roll = std::atan2(device[2][1], device[2][2]),
+                                          .time = 7};
+          const HeadingSample back = seen_from_vehicle(measured, mounting);
+          EXPECT_NEAR(wrapped_angle(back.yaw - yaw), 0, 1e-9);
+          EXPECT_NEAR(back.pitch, pitch, 1e-9);
+          EXPECT_NEAR(back.roll, roll, 1e-9);
+          EXPECT_EQ(back.time, 7);
+        }
+      }
+    }
+  }
+}
+
+TEST(Attitude, WithoutTiltOnlyYawIsTurned) {
+  const double none = std::nan("");
+  const HeadingSample back = seen_from_vehicle({.yaw = 3.0, .pitch = none, .roll = 0.1}, -1.0);
+  EXPECT_NEAR(back.yaw, 4.0 - 2 * std::numbers::pi, 1e-12);
+  EXPECT_TRUE(std::isnan(back.pitch));
+  EXPECT_TRUE(std::isnan(back.roll));
+}
+
+}  // namespace
+}  // namespace lakshya
