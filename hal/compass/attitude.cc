@@ -33,4 +33,19 @@ HeadingSample seen_from_vehicle(const HeadingSample& device, double mounting) {
   return vehicle;
 }
 
+HeadingSample attitude_of(const Vector3& field, const Vector3& up, double& horizontal) {
+  const double length = std::sqrt(dot(up, up));
+  const Vector3 u = {up[0] / length, up[1] / length, up[2] / length};
+  const double rising = dot(field, u);
+  const Vector3 level = field - Vector3{rising * u[0], rising * u[1], rising * u[2]};
+  horizontal = std::sqrt(dot(level, level));
+  // Forward, levelled, and what is a quarter turn to its left; both as long as forward is level.
+  const double to_forward = field[0] - u[0] * rising;
+  const double to_left = field[1] * u[2] - field[2] * u[1];
+  const double heading = std::atan2(to_left, to_forward);  // north to the left: the nose points east of it
+  return {.yaw = wrapped_angle(std::numbers::pi / 2 - heading),
+          .pitch = std::asin(std::clamp(u[0], -1.0, 1.0)),
+          .roll = std::atan2(u[1], u[2])};
+}
+
 }  // namespace lakshya

@@ -40,22 +40,23 @@ Os5000::~Os5000() {
 
 Status Os5000::check_settings() {
   const Os5000Settings& s = settings_;
-  const char* wrong = nullptr;
-  if (s.baud < 1200 || s.baud > 230400)
-    wrong = "baud is not 1200 to 230400";
-  else if (s.rate_hz < 1 || s.rate_hz > 40)
-    wrong = "rate_hz is not 1 to 40";
-  else if (s.rate_hz * kLongestAskedFor * kBitsPerByte > s.baud)
-    wrong = "rate_hz is more than the line can carry";
-  else if (!is_angle(s.declination_deg))
-    wrong = "declination_deg is not -180 to 180";
-  else if (!is_angle(s.mounting_deg))
-    wrong = "mounting_deg is not -180 to 180";
-  else if (!is_sign(s.pitch_sign) || !is_sign(s.roll_sign))
-    wrong = "pitch_sign or roll_sign is not 1 or -1";
-  if (wrong == nullptr) return Status::ok;
-  problem_.set("OS5000: settings: %s", wrong);
-  return Status::bad_argument;
+  const struct {
+    bool holds;
+    const char* otherwise;
+  } rules[] = {
+      {s.baud >= 1200 && s.baud <= 230400, "baud is not 1200 to 230400"},
+      {s.rate_hz >= 1 && s.rate_hz <= 40, "rate_hz is not 1 to 40"},
+      {s.rate_hz <= s.baud / (kLongestAskedFor * kBitsPerByte), "rate_hz is more than the line can carry"},
+      {is_angle(s.declination_deg), "declination_deg is not -180 to 180"},
+      {is_angle(s.mounting_deg), "mounting_deg is not -180 to 180"},
+      {is_sign(s.pitch_sign) && is_sign(s.roll_sign), "pitch_sign or roll_sign is not 1 or -1"},
+  };
+  for (const auto& rule : rules) {
+    if (rule.holds) continue;
+    problem_.set("OS5000: settings: %s", rule.otherwise);
+    return Status::bad_argument;
+  }
+  return Status::ok;
 }
 
 void Os5000::write_commands() {

@@ -77,5 +77,54 @@ TEST(Attitude, WithoutTiltOnlyYawIsTurned) {
   EXPECT_TRUE(std::isnan(back.roll));
 }
 
+TEST(Attitude, OfVectorsInTheFourDirections) {
+  const Vector3 up = {0, 0, 2};
+  double horizontal = 0;
+  // The field points north and 60 degrees down. North ahead, to the left, behind, to the right: heading 0, 90, 180, 270.
+  const double down = -std::sqrt(3.0);
+  EXPECT_NEAR(attitude_of({1, 0, down}, up, horizontal).yaw, std::numbers::pi / 2, 1e-12);
+  EXPECT_NEAR(horizontal, 1, 1e-12);
+  EXPECT_NEAR(attitude_of({0, 1, down}, up, horizontal).yaw, 0, 1e-12);
+  EXPECT_NEAR(attitude_of({-1, 0, down}, up, horizontal).yaw, -std::numbers::pi / 2, 1e-12);
+  EXPECT_NEAR(attitude_of({0, -1, down}, up, horizontal).yaw, std::numbers::pi, 1e-12);
+  // Nose up: the forward axis points up. Right side down: the left axis does.
+  EXPECT_NEAR(attitude_of({1, 0, 0}, {1, 0, 1}, horizontal).pitch, std::numbers::pi / 4, 1e-12);
+  EXPECT_NEAR(attitude_of({1, 0, 0}, {0, 1, 1}, horizontal).roll, std::numbers::pi / 4, 1e-12);
+}
+
+TEST(Attitude, OfVectorsAgreesWithRotationMatrices) {
+  const Vector3 north_and_down = {0, 0.2, -0.45};  // east, north, up
+  for (const double yaw : {-3.0, -0.4, 0.0, 2.1}) {
+    for (const double pitch : {-1.2, -0.3, 0.0, 0.7}) {
+      for (const double roll : {-2.5, -0.2, 0.0, 0.9}) {
+        const Matrix body = rotation_of({.yaw = yaw, .pitch = pitch, .roll = roll});
+        Vector3 field{};
+        Vector3 up{};
+        for (std::size_t i = 0; i < 3; ++i) {
+          up[i] = 9.81 * body[2][i];
+          for (std::size_t j = 0; j < 3; ++j)
+            field[i] += body[j][i] * north_and_down[j];
+        }
+        double horizontal = 0;
+        const HeadingSample s = attitude_of(field, up, horizontal);
+        EXPECT_NEAR(wrapped_angle(s.yaw - yaw), 0, 1e-9);
+        EXPECT_NEAR(s.pitch, pitch, 1e-9);
+        EXPECT_NEAR(s.roll, roll, 1e-9);
+        EXPECT_NEAR(horizontal, 0.2, 1e-12);
+      }
+    }
+  }
+}
+
+TEST(Matrix3, KnowsARotation) {
+  EXPECT_TRUE(is_rotation(kIdentity3));
+  EXPECT_TRUE(is_rotation({1, 0, 0, 0, 0.866, 0.5, 0, -0.5, 0.866})) << "the kernel's example";
+  EXPECT_FALSE(is_rotation({1, 0, 0, 0, 1, 0, 0, 0, -1})) << "a mirror";
+  EXPECT_FALSE(is_rotation({1, 0.1, 0, 0, 1, 0, 0, 0, 1}));
+  EXPECT_FALSE(is_rotation({}));
+  EXPECT_FALSE(is_rotation({1, 0, 0, 0, 1, 0, 0, 0, std::nan("")}));
+  EXPECT_EQ(determinant({2, 0, 1, 0, 3, 0, 0, 0, 4}), 24);
+}
+
 }  // namespace
 }  // namespace lakshya

@@ -156,7 +156,7 @@ TEST_F(Os5000Test, TheTimeIsWhenTheFirstByteBeganToBeSent) {
   port_.say("noise" + text.substr(0, 3), 20 * kMillisecond);
   port_.say(text.substr(3), 50 * kMillisecond);
   ASSERT_EQ(read(compass_, 100), Status::ok);
-  EXPECT_EQ(sample_.time, came - 3 * 10 * kSecond / 19200);
+  EXPECT_EQ(sample_.time, came - 30 * kSecond / 19200);
   EXPECT_EQ(clock_.now(), came + 30 * kMillisecond);
 }
 
