@@ -57,7 +57,7 @@ TEST_F(EyeOrderTest, ASurfaceThatMovesTheWrongWayWithoutNearAndFarIsBelieved) {
 }
 
 TEST_F(EyeOrderTest, WhereThereIsNothingToSeeItIsUnsure) {
-  constexpr std::size_t kPixels = 320 * 240;
+  constexpr std::size_t kPixels = std::size_t{320} * 240;
   const std::vector<std::uint8_t> flat(kPixels, 90);
   const ImageView<const std::uint8_t> view(flat.data(), 320, 240);
   EXPECT_EQ(finder_->look(view, view).order, EyeOrder::unsure);
