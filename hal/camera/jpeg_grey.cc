@@ -2,8 +2,15 @@
 
 #include <turbojpeg.h>
 
+#include <memory>
+
 namespace lakshya {
 namespace {
+
+struct DestroyHandle {
+  void operator()(void* handle) const { tjDestroy(handle); }
+};
+using Handle = std::unique_ptr<void, DestroyHandle>;
 
 // Walks the segments (ITU-T T.81, B.1.1) to the frame header: false unless that is SOF0 or SOF1 (sequential, Huffman).
 bool is_sequential(std::span<const std::uint8_t> bytes) {
@@ -27,29 +34,23 @@ bool is_sequential(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-JpegGrey::~JpegGrey() {
-  if (handle_ != nullptr) tjDestroy(handle_);
-}
-
-Status JpegGrey::open() {
-  if (handle_ == nullptr) handle_ = tjInitDecompress();
-  return handle_ != nullptr ? Status::ok : Status::unsupported;
-}
-
-Status JpegGrey::decode(std::span<const std::uint8_t> bytes, ImageView<std::uint8_t> grey) {
-  if (handle_ == nullptr || !is_sequential(bytes)) return Status::bad_data;
+Status decode_jpeg_grey(std::span<const std::uint8_t> bytes, ImageView<std::uint8_t> grey) {
+  if (!is_sequential(bytes)) return Status::bad_data;
+  const Handle handle(tjInitDecompress());
+  if (!handle) return Status::unsupported;
   int width = 0;
   int height = 0;
   int subsampling = 0;
   int color_space = 0;
-  if (tjDecompressHeader3(handle_, bytes.data(), bytes.size(), &width, &height, &subsampling, &color_space) != 0 ||
+  if (tjDecompressHeader3(handle.get(), bytes.data(), bytes.size(), &width, &height, &subsampling, &color_space) !=
+          0 ||
       width != grey.width || height != grey.height || color_space == TJCS_CMYK || color_space == TJCS_YCCK) {
     return Status::bad_data;
   }
   // To the library a premature end is only a warning, and the missing part would be grey.
   const int flags = TJFLAG_ACCURATEDCT | TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS;
-  return tjDecompress2(handle_, bytes.data(), bytes.size(), grey.data, grey.width, static_cast<int>(grey.stride),
-                       grey.height, TJPF_GRAY, flags) == 0
+  return tjDecompress2(handle.get(), bytes.data(), bytes.size(), grey.data, grey.width,
+                       static_cast<int>(grey.stride), grey.height, TJPF_GRAY, flags) == 0
              ? Status::ok
              : Status::bad_data;
 }

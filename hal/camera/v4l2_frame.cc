@@ -1,5 +1,7 @@
 #include "hal/camera/v4l2_frame.h"
 
+#include "hal/camera/jpeg_grey.h"
+
 namespace lakshya {
 namespace {
 
@@ -33,8 +35,8 @@ std::size_t picture_bytes(const V4l2Picture& picture) {
   return picture.bytes_per_line * static_cast<std::size_t>(picture.height - 1) + bytes_of_line(picture);
 }
 
-Status grey_picture(const V4l2Picture& picture, std::span<const std::uint8_t> used, JpegGrey& jpeg,
-                    ImageView<std::uint8_t> memory, ImageView<const std::uint8_t>& grey) {
+Status grey_picture(const V4l2Picture& picture, std::span<const std::uint8_t> used, ImageView<std::uint8_t> memory,
+                    ImageView<const std::uint8_t>& grey) {
   if (!is_possible(picture)) return Status::bad_argument;
   const bool in_place = picture.format == V4l2Format::grey;
   if (!in_place && (memory.width != picture.width || memory.height != picture.height)) return Status::bad_argument;
@@ -45,7 +47,7 @@ Status grey_picture(const V4l2Picture& picture, std::span<const std::uint8_t> us
     return Status::ok;
   }
   if (picture.format == V4l2Format::mjpg) {
-    const Status decoded = jpeg.decode(used, memory);
+    const Status decoded = decode_jpeg_grey(used, memory);
     if (decoded != Status::ok) return decoded;
   } else {
     copy_luma(picture, used.data(), memory);

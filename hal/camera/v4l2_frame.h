@@ -1,12 +1,11 @@
-// From the bytes of a Video4Linux2 capture buffer to a grey picture, and from that to two eyes. Functions of the bytes; only a
-// JPEG decoder has state. Formats: Linux kernel, "Video for Linux API", Image Formats: GREY, YUYV, MJPEG.
+// From the bytes of a Video4Linux2 capture buffer to a grey picture, and from that to two eyes. Functions of the bytes.
+// Formats: Linux kernel, "Video for Linux API", Image Formats: GREY, YUYV, MJPEG.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
-#include "hal/camera/jpeg_grey.h"
 #include "kernels/base/image_view.h"
 #include "kernels/base/status.h"
 
@@ -37,8 +36,8 @@ std::size_t picture_bytes(const V4l2Picture& picture);
 // `used`: the bytes that the driver filled. `memory`: of the picture's size, or empty for GREY, whose answer lies in `used`;
 // that of the others lies in `memory`. bad_argument: is_possible() says no, or no such memory; bad_data: too few bytes, or no
 // JPEG of that size.
-Status grey_picture(const V4l2Picture& picture, std::span<const std::uint8_t> used, JpegGrey& jpeg,
-                    ImageView<std::uint8_t> memory, ImageView<const std::uint8_t>& grey);
+Status grey_picture(const V4l2Picture& picture, std::span<const std::uint8_t> used, ImageView<std::uint8_t> memory,
+                    ImageView<const std::uint8_t>& grey);
 
 // The left half (index 0) or the right half (index 1) of a picture of even width.
 ImageView<const std::uint8_t> half(ImageView<const std::uint8_t> picture, int index);
