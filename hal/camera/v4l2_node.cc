@@ -256,8 +256,9 @@ Status V4l2Node::wait(Nanoseconds deadline) {
     clock_->sleep_until(std::min(deadline, clock_->now() + kMillisecond));
     if (clock_->now() >= deadline) return Status::timeout;
   }
-  ++false_alarms_;
-  return clock_->wait_for(fd_, Ready::to_read, deadline);
+  const Status status = clock_->wait_for(fd_, Ready::to_read, deadline);
+  if (status == Status::ok) ++false_alarms_;
+  return status;
 }
 
 Status V4l2Node::newest(Nanoseconds deadline, Filled& frame) {

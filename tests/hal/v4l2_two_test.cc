@@ -1,0 +1,106 @@
+// V4l2Camera with two devices, whose pictures are paired by their times.
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+
+#include "tests/support/v4l2_rig.h"
+
+namespace lakshya {
+namespace {
+
+class V4l2TwoTest : public test::V4l2Rig {
+ protected:
+  void open(bool swap = false) {
+    V4l2Settings s = two_devices();
+    s.swap = swap;
+    camera_.emplace(s, clock_, kernel_);
+    ASSERT_EQ(camera_->open(), Status::ok) << camera_->problem();
+  }
+  Status capture(int ms = 200) { return camera_->capture(in_ms(ms), frame_); }
+  std::uint64_t count(const char* name) const { return test::count_of(*camera_, name); }
+
+  std::optional<V4l2Camera> camera_;
+};
+
+TEST_F(V4l2TwoTest, FramesOfTheSameTimeAreAPair) {
+  add_many(left(), 10);
+  add_many(right(), 10, kPeriod + 4 * kMillisecond, 51);
+  open();
+  for (int i = 1; i <= 10; ++i) {
+    ASSERT_EQ(capture(), Status::ok) << camera_->problem();
+    EXPECT_EQ(frame_.left.at(0, 0), i);
+    EXPECT_EQ(frame_.right.at(0, 0), 50 + i);
+    EXPECT_EQ(frame_.right_time - frame_.left_time, 4 * kMillisecond);
+  }
+  EXPECT_EQ(count("unpaired_frames"), 0U);
+}
+
+TEST_F(V4l2TwoTest, SwapExchangesTheDevicesAndTheirTimes) {
+  add_many(left(), 1);
+  add_many(right(), 1, kPeriod + kMillisecond, 51);
+  open(true);
+  ASSERT_EQ(capture(), Status::ok);
+  EXPECT_EQ(frame_.left.at(0, 0), 51);
+  EXPECT_EQ(frame_.left_time - frame_.right_time, kMillisecond);
+}
+
+TEST_F(V4l2TwoTest, AFrameWithoutAPartnerIsDroppedAndCounted) {
+  add_many(left(), 10);
+  add_many(right(), 8, 3 * kPeriod, 53);  // the first two are missing
+  open();
+  ASSERT_EQ(capture(), Status::ok) << camera_->problem();
+  EXPECT_EQ(frame_.left.at(0, 0), 3);
+  EXPECT_EQ(frame_.right.at(0, 0), 53);
+  EXPECT_GE(count("unpaired_frames") + count("dropped_frames"), 2U);
+  ASSERT_EQ(capture(), Status::ok);
+  EXPECT_EQ(frame_.left.at(0, 0), 4);
+  EXPECT_EQ(frame_.right.at(0, 0), 54);
+}
+
+TEST_F(V4l2TwoTest, CamerasThatRunApartAreBadDataBeforeTheDeadline) {
+  add_many(left(), 60);
+  add_many(right(), 60, kPeriod + 15 * kMillisecond);
+  open();
+  const Nanoseconds deadline = in_ms(1900);
+  EXPECT_EQ(capture(1900), Status::bad_data);
+  EXPECT_LT(clock_.now(), deadline);
+  EXPECT_NE(std::string(camera_->problem()).find("ms apart, at most 5"), std::string::npos) << camera_->problem();
+  EXPECT_EQ(count("unpaired_frames"), 9U);
+}
+
+TEST_F(V4l2TwoTest, OneThatGivesNothingIsATimeoutAndThePairsGoOnAfterwards) {
+  add_many(left(), 30);
+  add_many(right(), 3, 10 * kPeriod, 60);
+  open();
+  const Nanoseconds deadline = in_ms(100);
+  EXPECT_EQ(capture(100), Status::timeout);
+  EXPECT_EQ(clock_.now(), deadline);
+  ASSERT_EQ(capture(1000), Status::ok) << camera_->problem();
+  EXPECT_GE(frame_.left.at(0, 0), 10);
+  EXPECT_EQ(frame_.right.at(0, 0), frame_.left.at(0, 0) + 50);
+}
+
+TEST_F(V4l2TwoTest, OnePulledPlugClosesBothAndBothComeBack) {
+  add_many(left(), 60);
+  add_many(right(), 60);
+  open();
+  ASSERT_EQ(capture(), Status::ok);
+  right().unplugged_at = start_ + 90 * kMillisecond;
+  right().plugged_at = start_ + 500 * kMillisecond;
+  Status status = capture();
+  while (status == Status::ok)
+    status = capture();
+  EXPECT_EQ(status, Status::disconnected);
+  EXPECT_FALSE(left().streaming);
+  EXPECT_EQ(left().mapped, 0);
+  int calls = 0;
+  while (status != Status::ok && ++calls < 50)
+    status = capture(100);
+  ASSERT_EQ(status, Status::ok) << camera_->problem();
+  EXPECT_EQ(frame_.left_time, frame_.right_time);
+  EXPECT_EQ(count("disconnections"), 1U);
+}
+
+}  // namespace
+}  // namespace lakshya
