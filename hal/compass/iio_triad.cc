@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 
 #include "hal/compass/iio_text.h"
 
@@ -90,7 +91,7 @@ Status IioTriad::open(const char* folder, const char* channel, Problem& problem)
   close();
   std::snprintf(place_.data(), place_.size(), "%s/in_%s", folder, channel);
   Status status = read_mount(folder, channel, problem);
-  for (std::size_t axis = 0; axis < raw_.size() && status == Status::ok; ++axis)
+  for (std::size_t axis = 0; axis < std::size(kAxes) && status == Status::ok; ++axis)
     status = open_axis(axis, folder, channel, problem);
   if (status != Status::ok) close();
   return status;
@@ -104,7 +105,7 @@ void IioTriad::close() {
 }
 
 Status IioTriad::read(Vector3& raw, Vector3& value, Problem& problem) {
-  for (std::size_t axis = 0; axis < raw_.size(); ++axis) {
+  for (std::size_t axis = 0; axis < std::size(kAxes); ++axis) {
     std::array<char, 64> text{};
     const long size = calls_->read_at_start(raw_[axis], text);
     if (size < 0) {

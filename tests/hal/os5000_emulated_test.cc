@@ -17,6 +17,12 @@ namespace {
 
 class Os5000EmulatedTest : public testing::Test {
  protected:
+  // A busy machine may hand over two characters at once, however slowly they were typed; os5000_test has the slow typing.
+  Os5000EmulatedTest() {
+    const auto lock = terminal_.locked();
+    device_.deaf_ms = 0;
+  }
+
   double degrees_off(double heading_deg) const {
     const double yaw_deg = 90 - heading_deg;
     return std::abs(std::remainder(sample_.yaw * 180 / std::numbers::pi - yaw_deg, 360.0));
@@ -41,7 +47,6 @@ TEST_F(Os5000EmulatedTest, FollowsATurnAtTheRateItAskedFor) {
   {
     const auto lock = terminal_.locked();
     EXPECT_EQ(device_.commands_obeyed, 2);
-    EXPECT_EQ(device_.characters_lost, 0);
     EXPECT_EQ(device_.rate_hz, 40);
     EXPECT_EQ(device_.fields, 7);
   }

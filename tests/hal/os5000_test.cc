@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/emulators/os5000_device.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/fake_serial_port.h"
 
@@ -93,6 +94,17 @@ TEST_F(Os5000Test, OpenSetsRateAndContentCharacterByCharacter) {
   for (std::size_t i = 0; i < times.size(); ++i)
     EXPECT_EQ(times[i] - start, static_cast<Nanoseconds>(i) * 100 * kMillisecond);
   EXPECT_EQ(clock_.now() - start, 950 * kMillisecond);
+}
+
+TEST_F(Os5000Test, ADeviceThatIsDeafToFastTypingObeys) {
+  emulator::Os5000Device device;
+  device.deaf_ms = 100;
+  port_.answer = [&](const std::string& written) { device.hear(written, clock_.now()); };
+  open(compass_);
+  EXPECT_EQ(device.characters_lost, 0);
+  EXPECT_EQ(device.commands_obeyed, 2);
+  EXPECT_EQ(device.rate_hz, 10);
+  EXPECT_EQ(device.fields, 7);
 }
 
 TEST_F(Os5000Test, CommandsMayEndWithASpaceOrNotBeSent) {
