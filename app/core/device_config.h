@@ -23,8 +23,54 @@ struct FolderConfig {
   std::string repeat = "no";
 };
 
+struct V4l2Config {
+  std::string device = "/dev/video0";
+  std::string right_device;
+  std::string format = "yuyv";
+  int width = 640;
+  int height = 480;
+  double fps = 30;
+  std::string swap = "no";
+  std::string check_eyes = "yes";
+  double skew_ms = 5;
+  int exposure_us = -1;
+  int gain = -1;
+  int buffers = 4;
+};
+
+struct Dc1394Config {
+  std::string guid;
+  int width = 640;
+  int height = 480;
+  std::string bayer = "none";
+  std::string first_is_left = "no";
+  std::string check_eyes = "yes";
+  int packet_bytes = 0;
+  int buffers = 4;
+};
+
 struct RecordConfig {
   std::string path;
+};
+
+struct QuicksilverConfig {
+  std::string port;
+  int baud = 57600;
+  int stop_bits = 2;
+  int left_address = 16;
+  int right_address = 17;
+  int left_direction = 1;
+  int right_direction = 1;
+  double wheel_radius_m = 0.1;
+  double gear_ratio = 10;
+  int counts_per_rev = 8000;
+  std::string supervised = "yes";
+  int velocity_register = 30;
+  int counter_register = 31;
+  int heartbeat_register = 32;
+  int signature_register = 33;
+  double watchdog_s = 0.2;
+  double answer_timeout_s = 0.02;
 };
 
 struct PwmConfig {
@@ -47,6 +93,33 @@ struct CompassConfig {
   double rate_hz = 10;
   double declination_deg = 0;
   double mounting_deg = 0;
+};
+
+struct Os5000Config {
+  std::string port;
+  int baud = 19200;
+  std::string set_up = "yes";
+  std::string command_end = "return";
+  int pitch_sign = 1;
+  int roll_sign = 1;
+};
+
+struct IioConfig {
+  std::string name;
+  std::string accelerometer;
+  std::string axes = "x,y,z";
+  double hard_iron_x_gauss = 0;
+  double hard_iron_y_gauss = 0;
+  double hard_iron_z_gauss = 0;
+  double soft_iron_xx = 1;
+  double soft_iron_xy = 0;
+  double soft_iron_xz = 0;
+  double soft_iron_yy = 1;
+  double soft_iron_yz = 0;
+  double soft_iron_zz = 1;
+  double min_horizontal_gauss = 0.05;
+  double max_horizontal_gauss = 0.6;
+  int saturated_raw = 0;
 };
 
 struct OdometryConfig {

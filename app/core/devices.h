@@ -10,6 +10,7 @@
 #include "hal/camera.h"
 #include "hal/clock.h"
 #include "hal/compass.h"
+#include "hal/compass/iio_compass.h"
 #include "hal/odometry/wheel_odometry.h"
 #include "hal/servo.h"
 
@@ -37,6 +38,9 @@ std::span<const Driver<Compass>> compass_drivers();
 Made<StereoCamera> make_camera(const VehicleConfig& config, Clock& clock);
 Made<Servo> make_servo(const VehicleConfig& config, Clock& clock);
 Made<Compass> make_compass(const VehicleConfig& config, Clock& clock);
+
+// Throws InputError for iio.axes that are none. For a calibration, which wants the field itself.
+IioCompassSettings iio_settings(const VehicleConfig& config);
 
 WheelOdometrySettings odometry_settings(const VehicleConfig& config);
 

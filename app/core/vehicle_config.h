@@ -80,9 +80,14 @@ struct VehicleConfig {
   VehicleParams vehicle;
   DriversConfig drivers;
   FolderConfig folder;
+  V4l2Config v4l2;
+  Dc1394Config dc1394;
   RecordConfig record;
+  QuicksilverConfig quicksilver;
   PwmConfig pwm;
   CompassConfig compass;
+  Os5000Config os5000;
+  IioConfig iio;
   OdometryConfig odometry;
 };
 

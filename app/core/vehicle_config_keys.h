@@ -23,7 +23,7 @@ struct Group {
   std::string_view name;
   std::string_view meaning;
 };
-inline constexpr std::array<Group, 13> kGroups{{
+inline constexpr std::array<Group, 18> kGroups{{
     {"camera", "Mount of the left camera, relative to the ground under the wheels and to the turning centre"},
     {"matcher", "From the rectified pair to disparities"},
     {"prune", "Which points matter: depth, floor and ceiling"},
@@ -34,9 +34,14 @@ inline constexpr std::array<Group, 13> kGroups{{
     {"vehicle", "The vehicle's body, speed and steering"},
     {"drivers", "Which devices the vehicle has"},
     {"folder", "Camera driver folder"},
+    {"v4l2", "Camera driver v4l2: one stereo camera of the kernel's with both eyes side by side, or two cameras"},
+    {"dc1394", "Camera driver dc1394: PGR Bumblebee2 or XB3 on IEEE 1394"},
     {"record", "Servo driver record"},
+    {"quicksilver", "Servo driver quicksilver: two QuickSilver drives on one serial line"},
     {"pwm", "Servo driver pwm: two hobby drives on a PWM chip of the kernel's"},
     {"compass", "What every compass needs"},
+    {"os5000", "Compass driver os5000: OceanServer OS5000"},
+    {"iio", "Compass driver iio: a magnetometer of the kernel's industrial I/O"},
     {"odometry", "The pose from the wheels' travel and the compass"},
 }};
 

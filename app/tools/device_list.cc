@@ -1,6 +1,7 @@
 #include "app/tools/device_list.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
@@ -8,6 +9,8 @@
 
 #include "app/core/devices.h"
 #include "app/core/frame_lists.h"
+#include "app/core/vehicle_config_text.h"
+#include "hal/camera/v4l2_list.h"
 
 namespace lakshya {
 namespace {
@@ -99,8 +102,26 @@ std::vector<FoundDevice> list_pwm_chips(const std::string& root) {
   return found;
 }
 
+std::vector<FoundDevice> list_cameras(const std::string& root) {
+  std::vector<FoundDevice> found;
+  for (const V4l2Listed& camera : list_v4l2(linux_system_calls(), root + "/dev/video")) {
+    std::string text = camera.card + camera.problem;
+    for (const V4l2Offer& offer : camera.offers) {
+      text.append(", ")
+          .append(offer.format)
+          .append(offer.up_to ? " up to " : " ")
+          .append(std::to_string(offer.width));
+      text.append("x").append(std::to_string(offer.height));
+      for (std::size_t i = 0; i < offer.fps.size(); ++i)
+        text.append(i == 0 ? " at " : "/").append(number_text(std::round(offer.fps[i] * 100) / 100));
+    }
+    found.push_back({camera.path, text});
+  }
+  return found;
+}
+
 DeviceList list_devices(const std::string& root) {
-  return {.cameras = {},
+  return {.cameras = list_cameras(root),
           .serial_ports = list_serial_ports(root),
           .iio_sensors = list_iio_sensors(root),
           .pwm_chips = list_pwm_chips(root)};
@@ -116,7 +137,7 @@ nlohmann::ordered_json device_list_json(const DeviceList& list) {
 std::string device_list_text(const DeviceList& list) {
   using Words = std::vector<std::string>;
   std::ostringstream out;
-  append(out, "Cameras", list.cameras, Words{"v4l2"});
+  append(out, "Cameras", list.cameras, Words{"v4l2", "dc1394 (on IEEE 1394, not listed)"});
   append(out, "Serial ports", list.serial_ports, Words{"quicksilver", "os5000"});
   append(out, "IIO sensors", list.iio_sensors, Words{"iio"});
   append(out, "PWM chips", list.pwm_chips, Words{"pwm"});

@@ -12,8 +12,9 @@ struct FoundDevice {
   std::string name;  // what it says it is
 };
 
-// Under `root` ("" for the machine itself), in the order of their paths: ports with hardware behind them; sensors with a
+// Under `root` ("" for the machine itself), in the order of their paths: cameras of Video4Linux2 with what they offer; ports with hardware behind them; sensors with a
 // magnetometer or an accelerometer; chips, with their number of channels.
+std::vector<FoundDevice> list_cameras(const std::string& root);
 std::vector<FoundDevice> list_serial_ports(const std::string& root);
 std::vector<FoundDevice> list_iio_sensors(const std::string& root);
 std::vector<FoundDevice> list_pwm_chips(const std::string& root);

@@ -8,6 +8,7 @@
 #include "app/tools/accuracy_command.h"
 #include "app/tools/bench_command.h"
 #include "app/tools/compare_command.h"
+#include "app/tools/compass_command.h"
 #include "app/tools/config_command.h"
 #include "app/tools/devices_command.h"
 #include "app/tools/eval_command.h"
@@ -38,6 +39,7 @@ int run(int argc, char** argv) {
   lakshya::add_bench_command(app);
   lakshya::add_config_command(app);
   lakshya::add_devices_command(app);
+  lakshya::add_compass_command(app);
   try {
     app.parse(argc, argv);
     return kOk;

@@ -83,7 +83,7 @@ bool IioCompass::has_name(const char* folder, const std::string& name) {
   std::array<char, 128> text{};
   int error = 0;
   const std::string_view read = read_attribute(*calls_, folder, "name", text, error);
-  return error == 0 && trimmed(read) == name;
+  return error == 0 && without_blanks(read) == name;
 }
 
 Status IioCompass::find() {

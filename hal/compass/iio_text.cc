@@ -7,7 +7,7 @@
 
 namespace lakshya {
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   constexpr std::string_view kAround = " \t\r\n";
   const std::size_t begin = std::min(text.find_first_not_of(kAround), text.size());
   const std::size_t end = text.find_last_not_of(kAround);
@@ -15,7 +15,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 Status parse_iio_number(std::string_view text, double& value) {
-  const std::string_view number = trimmed(text);
+  const std::string_view number = without_blanks(text);
   const char* const end = number.data() + number.size();
   const auto [stop, error] = std::from_chars(number.data(), end, value);
   return error == std::errc() && stop == end && std::isfinite(value) ? Status::ok : Status::bad_data;

@@ -9,7 +9,7 @@
 namespace lakshya {
 
 // Without spaces and line ends around it.
-std::string_view trimmed(std::string_view text);
+std::string_view without_blanks(std::string_view text);
 
 // "-123\n", "0.001500000". bad_data: anything else, or not finite.
 Status parse_iio_number(std::string_view text, double& value);

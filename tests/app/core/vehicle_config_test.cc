@@ -45,6 +45,11 @@ TEST(VehicleConfigKeys, EveryFieldHasItsKey) {
   EXPECT_EQ(keys["vehicle"], field_count<VehicleParams>());
   EXPECT_EQ(keys["drivers"], field_count<DriversConfig>());
   EXPECT_EQ(keys["folder"], field_count<FolderConfig>());
+  EXPECT_EQ(keys["v4l2"], field_count<V4l2Config>());
+  EXPECT_EQ(keys["quicksilver"], field_count<QuicksilverConfig>());
+  EXPECT_EQ(keys["os5000"], field_count<Os5000Config>());
+  EXPECT_EQ(keys["iio"], field_count<IioConfig>());
+  EXPECT_EQ(keys["dc1394"], field_count<Dc1394Config>());
   EXPECT_EQ(keys["record"], field_count<RecordConfig>());
   EXPECT_EQ(keys["pwm"], field_count<PwmConfig>());
   EXPECT_EQ(keys["compass"], field_count<CompassConfig>());
