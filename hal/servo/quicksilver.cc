@@ -104,8 +104,7 @@ Status QuickSilver::stop(Nanoseconds deadline) {
     last_try_ = reopen();
     if (last_try_ != Status::ok) return last_try_;
   }
-  // The velocity 0 would make a trial under way look passed.
-  if (step_ != Step::done) start_over();
+  if (trial_is_on()) return Status::ok;
   return stop_both(0, deadline);
 }
 

@@ -16,7 +16,7 @@
 //   stop()         supervised  2 commands,  34 characters   6.5 ms
 //   read_travel()              2 commands,  58 characters  11.1 ms, and 5.7 ms more once a second for each drive
 // One of them fits a period of 20 ms, both together take 28 ms: for both in every such period, set drives and port to
-// 115200 baud.
+// 115200 baud. After a reply that was lost or late, drive() answers timeout unless 23 ms are left before its deadline.
 //
 // After the port was lost, drive() and read_travel() look for it every 200 ms and then set the drives up as open() does,
 // as far as each call's deadline reaches: about 0.4 s in all, in which they answer timeout and the wheels stand.
@@ -56,7 +56,8 @@ class QuickSilver final : public Servo {
   // has started anew, the wheels are stopped and the drives set up again. refused: the same, because a resident program no
   // longer runs.
   Status read_travel(Nanoseconds deadline, WheelTravel& travel) override;
-  // With the set acceleration. A command that a drive does not confirm is sent again, and reported.
+  // With the set acceleration. A command that a drive does not confirm is sent again, and reported. Sends nothing while a resident
+  // program is on trial: the drives have confirmed that they stand.
   Status stop(Nanoseconds deadline) override;
   double max_speed_mps() const override;
   bool is_supervised() const override { return settings_.supervised; }
@@ -97,6 +98,7 @@ class QuickSilver final : public Servo {
   Status see_heartbeat_move(std::size_t drive, Nanoseconds deadline);
   Status see_velocity_zeroed(std::size_t drive, Nanoseconds deadline);
   void finish_step();
+  bool trial_is_on() const;
   void start_over();
 
   Status refuse(const WheelVelocities& wanted, Nanoseconds deadline);

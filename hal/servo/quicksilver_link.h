@@ -57,8 +57,7 @@ class QuickSilverLink {
   Status open();
   void close() { port_->close(); }
 
-  // `text` is addressed to this drive.
-  // A command that is answered by "done". Asked once more when the drive is busy. timeout: no reply, or the drive owes one
+  // A command that is answered by "done"; `text` is addressed to this drive. Asked once more when the drive is busy. timeout: no reply, or the drive owes one
   // and the deadline came first; bad_data: something came, but not the reply; refused: a nak; disconnected.
   Status command(std::size_t drive, const quicksilver::CommandText& text, Nanoseconds deadline);
 

@@ -82,6 +82,12 @@ Status QuickSilver::be_ready(Nanoseconds deadline) {
   return last_try_;
 }
 
+// Both drives have confirmed velocity 0, and then that of the trial, by which nothing moves. To write 0 now would make the trial
+// look passed, and to begin again would let a host that stops whenever drive() fails wait for ever.
+bool QuickSilver::trial_is_on() const {
+  return link_.is_open() && (step_ == Step::trial || step_ == Step::heartbeat_again || step_ == Step::trial_again);
+}
+
 // As many steps as there is time for; the next call goes on.
 Status QuickSilver::set_up(Nanoseconds deadline) {
   while (step_ != Step::done) {

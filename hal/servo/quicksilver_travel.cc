@@ -8,7 +8,7 @@ namespace lakshya {
 namespace {
 
 constexpr double kSpeedMargin = 1.5;
-constexpr double kDistanceMargin_m = 0.05;
+constexpr double kDistanceMargin = 0.05;  // m
 
 }  // namespace
 
@@ -22,7 +22,7 @@ bool QuickSilverTravel::is_near(const Reading& before, const Reading& now) const
   if (!before.exists) return false;
   const auto counts = static_cast<double>(quicksilver::counts_between(before.position, now.position));
   const double seconds = static_cast<double>(now.time - before.time) / kSecond;
-  return std::abs(counts * metres_per_count_) <= kSpeedMargin * max_speed_mps_ * seconds + kDistanceMargin_m;
+  return std::abs(counts * metres_per_count_) <= kSpeedMargin * max_speed_mps_ * seconds + kDistanceMargin;
 }
 
 QuickSilverTravel::Verdict QuickSilverTravel::take(std::int32_t position, Nanoseconds time) {

@@ -14,7 +14,7 @@ constexpr double kUnitsPerRevPerS = 2147483648.0 / 4000.0 * 60.0;
 constexpr double kUnitsPerRevPerS2 = 3865.47;
 constexpr int kFirstWritable = 11;
 constexpr std::size_t kLongestLine = 80;
-constexpr std::int64_t kTurnStep_ns = 1'000'000;
+constexpr std::int64_t kTurnStep = 1'000'000;
 constexpr std::uint16_t kProgramEnded = 0x2000;  // bit 13 of the polling status word
 
 enum Nak : int { bad_command = 1, bad_format = 5, buffer_full = 6, bad_checksum = 10 };
@@ -199,7 +199,7 @@ void QuickSilverDrive::advance(std::int64_t now_ns) {
       if (program_runs_) run_program();
       next_round_ns_ += program_.period_ns;
     }
-    const std::int64_t end = std::min({now_ns, now_ns_ + kTurnStep_ns, next_round_ns_});
+    const std::int64_t end = std::min({now_ns, now_ns_ + kTurnStep, next_round_ns_});
     turn(static_cast<double>(end - now_ns_) / 1e9);
     now_ns_ = end;
   }

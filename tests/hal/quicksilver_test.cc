@@ -712,6 +712,22 @@ TEST_F(QuickSilverTest, AStopDuringTheTrialIsNotTakenForTheProgramsDoing) {
   EXPECT_FALSE(was_sent("@16 11 30 268435456"));
 }
 
+// As a caller does for whom a failed drive() is a reason to stop.
+TEST_F(QuickSilverTest, StoppingAfterEveryFailureDoesNotHinderSettingUp) {
+  open_it();
+  port_.unplugged = true;
+  EXPECT_EQ(servo_.stop(in_ms(20)), Status::disconnected);
+  port_.unplugged = false;
+  const Nanoseconds begin = clock_.now();
+  Status status = Status::disconnected;
+  while (status != Status::ok && clock_.now() < begin + 2 * kSecond) {
+    clock_.advance(20 * kMillisecond);
+    status = servo_.drive({.left_mps = 0.5, .right_mps = 0.5}, in_ms(20));
+    if (status != Status::ok) (void)servo_.stop(in_ms(20));
+  }
+  EXPECT_EQ(status, Status::ok) << servo_.problem();
+}
+
 // ---- without resident programs
 
 class QuickSilverUnsupervisedTest : public QuickSilverTest {
