@@ -191,8 +191,8 @@ struct Fault {
   int worst_failures;  // of kAll calls
 };
 
-void PrintTo(const Fault& fault, std::ostream* out) {
-  *out << fault.name;
+std::ostream& operator<<(std::ostream& out, const Fault& fault) {
+  return out << fault.name;
 }
 
 class QuickSilverFaultTest : public QuickSilverEmulatedTest, public testing::WithParamInterface<Fault> {};
@@ -267,7 +267,7 @@ class QuickSilverOnTerminalTest : public testing::Test {
 
   // As udev gives an adapter the same name wherever it is plugged in.
   std::string linked_path() const {
-    const std::string link = folder_.path("drives");
+    std::string link = folder_.path("drives");
     std::filesystem::remove(link);
     std::filesystem::create_symlink(terminal_->path(), link);
     return link;
