@@ -85,7 +85,7 @@ Status split_bytes(std::span<const std::uint8_t> bytes, std::size_t bytes_per_li
     const std::uint8_t* __restrict from = bytes.data() + static_cast<std::size_t>(v) * bytes_per_line;
     std::uint8_t* __restrict a = first.row(v);
     std::uint8_t* __restrict b = second.row(v);
-    for (int u = 0; u < first.width; ++u) {
+    for (std::ptrdiff_t u = 0; u < first.width; ++u) {
       a[u] = from[2 * u];
       b[u] = from[2 * u + 1];
     }
