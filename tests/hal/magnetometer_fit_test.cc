@@ -211,9 +211,9 @@ TEST(MagnetometerFit, WhatIsNoEllipseIsRefused) {
   EXPECT_EQ(refusal_of(Turn{.samples = 99}.made()), MagnetometerRefusal::too_few_samples);
   EXPECT_EQ(refusal_of(std::vector<Vector3>(200, {0.1, 0.2, 0.3})), MagnetometerRefusal::degenerate);
   EXPECT_EQ(refusal_of(std::vector<Vector3>(200)), MagnetometerRefusal::degenerate);
-  std::vector<Vector3> line;
-  for (int i = 0; i < 200; ++i)
-    line.push_back({0.001 * i, 0.002 * i, 0});
+  std::vector<Vector3> line(200);
+  for (std::size_t i = 0; i < line.size(); ++i)
+    line[i] = {0.001 * static_cast<double>(i), 0.002 * static_cast<double>(i), 0};
   EXPECT_EQ(refusal_of(line), MagnetometerRefusal::degenerate);
   EXPECT_EQ(refusal_of(Turn{.distortion = {1, 0, 0, 0, 0.4, 0, 0, 0, 1}}.made()), MagnetometerRefusal::degenerate);
   EXPECT_EQ(refusal_of(Turn{.noise = 0.08}.made()), MagnetometerRefusal::large_residual);
