@@ -11,7 +11,8 @@ namespace lakshya {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr Nanoseconds kControlPeriod = 20 * kMillisecond;  // drives want their commands again and again
+// Drives want their commands again and again; slow lines take 20 ms for one, and some more when a drive is busy.
+constexpr Nanoseconds kControlPeriod = 40 * kMillisecond;
 constexpr Nanoseconds kPatience = kSecond;                 // for one reading
 
 Nanoseconds nanoseconds(double seconds) {
@@ -20,8 +21,8 @@ Nanoseconds nanoseconds(double seconds) {
 double seconds(Nanoseconds duration) {
   return static_cast<double>(duration) / static_cast<double>(kSecond);
 }
-double rounded(double value, double step) {
-  return std::round(value / step) * step;
+double rounded(double value, double per_unit) {
+  return std::round(value * per_unit) / per_unit;
 }
 
 std::string fault_of(const Device& device, Status status, const std::string& doing) {
@@ -135,8 +136,8 @@ class WheelTrial {
     const double time = seconds(duration);
     check_->facts["steps"].push_back(
         {{"step", step.name},
-         {"wanted_m", {rounded(wanted.left_mps * time, 1e-4), rounded(wanted.right_mps * time, 1e-4)}},
-         {"travelled_m", {rounded(left, 1e-4), rounded(right, 1e-4)}}});
+         {"wanted_m", {rounded(wanted.left_mps * time, 1e4), rounded(wanted.right_mps * time, 1e4)}},
+         {"travelled_m", {rounded(left, 1e4), rounded(right, 1e4)}}});
     if (!after.measured || (as_wanted(left, wanted.left_mps * time) && as_wanted(right, wanted.right_mps * time)))
       return true;
     check_->fault = std::string(step.name) +
@@ -188,10 +189,10 @@ DeviceCheck check_camera(StereoCamera& camera, Clock& clock, const CheckSettings
   check.facts["pairs"] = notes.pairs;
   if (notes.pairs > 1)
     check.facts["pairs_per_second"] =
-        rounded((notes.pairs - 1) / std::max(seconds(notes.last - notes.first), 1e-9), 0.01);
+        rounded((notes.pairs - 1) / std::max(seconds(notes.last - notes.first), 1e-9), 100);
   check.facts["lost"] = notes.lost;
-  check.facts["skew_ms"] = rounded(seconds(notes.skew) * 1000, 0.001);
-  check.facts["mean_grey"] = {rounded(notes.left_grey, 0.1), rounded(notes.right_grey, 0.1)};
+  check.facts["skew_ms"] = rounded(seconds(notes.skew) * 1000, 1000);
+  check.facts["mean_grey"] = {rounded(notes.left_grey, 10), rounded(notes.right_grey, 10)};
   add_counters(camera, check);
   check.fault = notes.pairs == 0 ? fault_of(camera, last == Status::ok ? Status::timeout : last, "no pair")
                                  : camera_fault(notes, camera.is_static());
@@ -211,7 +212,7 @@ DeviceCheck check_servo(Servo& servo, Clock& clock, const CheckSettings& setting
   WheelTravel travel;
   if (trial.read(travel, "read travel")) {
     check.facts["measures_travel"] = travel.measured;
-    check.facts["travel_m"] = {rounded(travel.left_m, 1e-4), rounded(travel.right_m, 1e-4)};
+    check.facts["travel_m"] = {rounded(travel.left_m, 1e4), rounded(travel.right_m, 1e4)};
     const Nanoseconds duration = nanoseconds(settings.seconds / static_cast<double>(std::size(kSteps)));
     for (const Step& step : kSteps) {
       if (settings.speed_mps <= 0 || !trial.run(step, settings.speed_mps, duration)) break;
@@ -244,14 +245,14 @@ DeviceCheck check_compass(Compass& compass, Clock& clock, const CheckSettings& s
     }
     if (status == Status::disconnected) clock.sleep_until(clock.now() + 10 * kMillisecond);
   }
-  const auto degrees = [](double angle) { return rounded(angle * 180 / kPi, 0.01); };
+  const auto degrees = [](double angle) { return rounded(angle * 180 / kPi, 100); };
   check.facts["readings"] = readings;
   if (readings > 1)
     check.facts["readings_per_second"] =
-        rounded((readings - 1) / std::max(seconds(sample.time - first), 1e-9), 0.01);
+        rounded((readings - 1) / std::max(seconds(sample.time - first), 1e-9), 100);
   if (readings > 0) {
     // As on a compass rose: clockwise from true north.
-    check.facts["heading_deg"] = std::fmod(degrees(kPi / 2 - sample.yaw) + 360, 360);
+    check.facts["heading_deg"] = degrees(std::fmod(2.5 * kPi - sample.yaw, 2 * kPi));
     if (std::isfinite(sample.pitch)) check.facts["pitch_deg"] = degrees(sample.pitch);
     if (std::isfinite(sample.roll)) check.facts["roll_deg"] = degrees(sample.roll);
   } else {

@@ -1,7 +1,8 @@
 #include "hal/servo/quicksilver.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "hal/servo/speed_guard.h"
 
 namespace lakshya {
 
@@ -31,8 +32,7 @@ QuickSilver::~QuickSilver() {
 }
 
 double QuickSilver::max_speed_mps() const {
-  return settings_.supervised ? settings_.max_speed_mps
-                              : std::min(settings_.max_speed_mps, settings_.v_unsupervised_mps);
+  return speed_limit(settings_.max_speed_mps, settings_.supervised, settings_.v_unsupervised_mps);
 }
 
 CommandText QuickSilver::to(std::size_t drive, Command command,
@@ -42,18 +42,17 @@ CommandText QuickSilver::to(std::size_t drive, Command command,
 
 // ---- drive and stop
 
-Status QuickSilver::refuse(const WheelVelocities& wanted, Nanoseconds deadline) {
+Status QuickSilver::refuse(Nanoseconds deadline) {
   counters_.add(QuickSilverCounters::refused_commands);
+  const Problem why = problem_;
   (void)stop(deadline);
-  problem_.set("drives: %g and %g m/s refused: at most %g m/s", wanted.left_mps, wanted.right_mps, max_speed_mps());
+  problem_ = why;
   return Status::refused;
 }
 
 Status QuickSilver::drive(const WheelVelocities& wanted, Nanoseconds deadline) {
   const std::array<double, 2> speeds = {wanted.left_mps, wanted.right_mps};
-  for (const double speed : speeds) {
-    if (!(std::abs(speed) <= max_speed_mps())) return refuse(wanted, deadline);
-  }
+  if (!speeds_allowed(wanted, *this, problem_)) return refuse(deadline);
   const Status ready = be_ready(deadline);
   if (ready != Status::ok) return ready;
   const Nanoseconds left = std::max<Nanoseconds>(deadline - clock_->now(), 0);

@@ -101,7 +101,7 @@ class QuickSilver final : public Servo {
   bool trial_is_on() const;
   void start_over();
 
-  Status refuse(const WheelVelocities& wanted, Nanoseconds deadline);
+  Status refuse(Nanoseconds deadline);
   Status set_velocity(std::size_t drive, double speed_mps, Nanoseconds deadline);
   Status feed(std::size_t drive, Nanoseconds deadline);
   Status stop_drive(std::size_t drive, Nanoseconds deadline);

@@ -29,10 +29,10 @@ TEST(IioText, Matrices) {
 }
 
 TEST(IioText, Trimmed) {
-  EXPECT_EQ(trimmed(" hmc5883\n"), "hmc5883");
-  EXPECT_EQ(trimmed("a b"), "a b");
-  EXPECT_EQ(trimmed(" \r\n"), "");
-  EXPECT_EQ(trimmed(""), "");
+  EXPECT_EQ(without_blanks(" hmc5883\n"), "hmc5883");
+  EXPECT_EQ(without_blanks("a b"), "a b");
+  EXPECT_EQ(without_blanks(" \r\n"), "");
+  EXPECT_EQ(without_blanks(""), "");
 }
 
 }  // namespace
