@@ -11,10 +11,11 @@ std::size_t bytes_of_line(const V4l2Picture& picture) {
 }
 
 void copy_luma(const V4l2Picture& picture, const std::uint8_t* from, ImageView<std::uint8_t> to) {
+  const std::ptrdiff_t width = picture.width;  // a byte stored might change a member
   for (int v = 0; v < picture.height; ++v, from += picture.bytes_per_line) {
     const std::uint8_t* __restrict line = from;
     std::uint8_t* __restrict row = to.row(v);
-    for (std::ptrdiff_t u = 0; u < picture.width; ++u)
+    for (std::ptrdiff_t u = 0; u < width; ++u)
       row[u] = line[2 * u];
   }
 }

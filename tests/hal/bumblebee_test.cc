@@ -38,7 +38,7 @@ TEST(BumblebeeBytes, RandomOnesOfOddWidths) {
     test::fill_random(b.view(), random, 0, 255);
     PaddedImage<std::uint8_t> first(width, 5);
     PaddedImage<std::uint8_t> second(width, 5);
-    const auto line = static_cast<std::size_t>(2 * width);
+    const auto line = 2 * static_cast<std::size_t>(width);
     ASSERT_EQ(split_bytes(test::interleaved(a.view(), b.view()), line, first.view(), second.view()), Status::ok);
     EXPECT_TRUE(test::equal_images(first.view(), a.view())) << width;
     EXPECT_TRUE(test::equal_images(second.view(), b.view())) << width;

@@ -44,7 +44,7 @@ TEST_F(V4l2FrameTest, GreyIsNotCopied) {
   ASSERT_EQ(grey_picture(picture, used, {}, grey_), Status::ok);
   EXPECT_EQ(grey_.data, used.data());
   EXPECT_EQ(grey_.stride, 40);
-  EXPECT_EQ(&half(grey_, 1).at(0, 2), used.data() + 2 * 40 + 16);
+  EXPECT_EQ(&half(grey_, 1).at(0, 2), &used[96]);
   EXPECT_EQ(&half(grey_, 1).at(15, 15), &used.back());
   EXPECT_EQ(&half(grey_, 0).at(0, 0), used.data());
   EXPECT_EQ(half(grey_, 0).width, 16);
@@ -92,9 +92,10 @@ TEST_F(V4l2FrameTest, ShortBuffersAreBadData) {
 // A cut through the last bits of the last block may leave them complete.
 TEST_F(V4l2FrameTest, EveryCutOfAJpegIsBadData) {
   const Bytes jpeg = test::jpeg_of(source_);
-  for (std::size_t size = 0; size + 3 < jpeg.size(); ++size)
-    EXPECT_EQ(make(mjpg(), Bytes(jpeg.begin(), jpeg.begin() + static_cast<std::ptrdiff_t>(size))), Status::bad_data)
-        << size << " of " << jpeg.size();
+  for (std::size_t size = 0; size + 3 < jpeg.size(); ++size) {
+    const Bytes cut(jpeg.begin(), jpeg.begin() + static_cast<std::ptrdiff_t>(size));
+    EXPECT_EQ(make(mjpg(), cut), Status::bad_data) << size << " of " << jpeg.size();
+  }
 }
 
 TEST_F(V4l2FrameTest, OtherJpegsAreBadData) {
@@ -137,7 +138,7 @@ TEST_F(V4l2FrameTest, ImpossiblePicturesAreRefused) {
 
 TEST_F(V4l2FrameTest, OnlyTheJpegLibraryAllocates) {
   const V4l2Picture yuyv{V4l2Format::yuyv, 32, 16, 64};
-  const Bytes used = counting(16 * 64);
+  const Bytes used = counting(std::size_t{16} * 64);
   const Bytes jpeg = test::jpeg_of(source_);
   const int before = test::allocations;
   EXPECT_EQ(make(yuyv, used), Status::ok);

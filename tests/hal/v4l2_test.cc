@@ -251,7 +251,7 @@ TEST_F(V4l2Test, FailuresOfTheDriver) {
 
 TEST_F(V4l2Test, LumaOfYuyv) {
   left().modes = {{.fourcc = V4L2_PIX_FMT_YUYV}};
-  std::vector<std::uint8_t> bytes(128 * 32, 128);
+  std::vector<std::uint8_t> bytes(std::size_t{128} * 32, 128);
   for (std::size_t i = 0; i < bytes.size(); i += 2)
     bytes[i] = static_cast<std::uint8_t>(i % 128 < 64 ? 20 : 30);
   left().frames.push_back({.time = start_ + kPeriod, .bytes = &bytes});

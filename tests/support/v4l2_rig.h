@@ -48,7 +48,7 @@ class V4l2Rig : public testing::Test {
   }
 
   // A picture of bytes `value` (its left half) and `value` + 100.
-  const std::vector<std::uint8_t>* picture(int value, std::size_t line = 2 * kWidth) {
+  const std::vector<std::uint8_t>* picture(int value, std::size_t line = std::size_t{2} * kWidth) {
     std::vector<std::uint8_t>& bytes = pictures_.emplace_back(line * kHeight);
     for (std::size_t i = 0; i < bytes.size(); ++i)
       bytes[i] = static_cast<std::uint8_t>(i % line < line / 2 ? value : value + 100);

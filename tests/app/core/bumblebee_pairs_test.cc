@@ -26,7 +26,7 @@ void expect_pair(const std::string& name, BayerPattern pattern, bool left_first)
 
   ManualClock clock;
   test::FakeIidc bus(clock);
-  const auto line = static_cast<std::size_t>(2 * left.width);
+  const auto line = 2 * static_cast<std::size_t>(left.width);
   bus.frames.push_back({clock.now(), {bytes, left.width, left.height, line, 0, false}});
   BumblebeeCamera camera({.width = left.width, .height = left.height, .pattern = pattern, .first_is_left = false},
                          bus, clock);
