@@ -70,7 +70,7 @@ struct QuicksilverConfig {
   int heartbeat_register = 32;
   int signature_register = 33;
   double watchdog_s = 0.2;
-  double answer_timeout_s = 0.02;
+  double answer_timeout_s = 0.05;
 };
 
 struct PwmConfig {

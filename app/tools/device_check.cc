@@ -11,9 +11,10 @@ namespace lakshya {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-// Drives want their commands again and again; slow lines take 20 ms for one, and some more when a drive is busy.
+// Drives want their commands again and again; slow lines take 20 ms for one. A late one is no fault here.
 constexpr Nanoseconds kControlPeriod = 40 * kMillisecond;
-constexpr Nanoseconds kPatience = kSecond;                 // for one reading
+constexpr Nanoseconds kCommandTime = 150 * kMillisecond;
+constexpr Nanoseconds kPatience = kSecond;  // for one reading
 
 Nanoseconds nanoseconds(double seconds) {
   return std::llround(seconds * static_cast<double>(kSecond));
@@ -125,7 +126,7 @@ class WheelTrial {
     const Nanoseconds end = clock_->now() + duration;
     for (Nanoseconds next = clock_->now(); next < end; next += kControlPeriod) {
       clock_->sleep_until(next);
-      if (!ok(servo_->drive(wanted, next + kControlPeriod), step.name)) return false;
+      if (!ok(servo_->drive(wanted, next + kCommandTime), step.name)) return false;
     }
     clock_->sleep_until(end);
     if (!ok(servo_->stop(clock_->now() + kPatience), "stop")) return false;

@@ -12,8 +12,9 @@
 namespace lakshya {
 
 struct DeviceCheck {
-  std::string fault;             // empty: the device did what it should
-  nlohmann::ordered_json facts;  // what was seen, by name; at the end the driver's counters
+  std::string fault;  // empty: the device did what it should
+  nlohmann::ordered_json facts =
+      nlohmann::ordered_json::object();  // what was seen, by name; at the end the driver's counters
 };
 
 struct CheckSettings {

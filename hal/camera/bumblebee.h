@@ -1,6 +1,6 @@
 // The format of Point Grey's stereo cameras on IEEE 1394 (Bumblebee2, and Bumblebee XB3 with two of its three eyes): Format7
-// mode 3 with 16 bits per pixel, of which each byte is one eye's. Functions of the bytes. Source: Point Grey Research,
-// "Bumblebee2 / Bumblebee XB3 Getting Started Manual", stereo image data format; IIDC 1.31 for the Bayer patterns' names.
+// mode 3 with 16 bits per pixel, of which each byte is one eye's. Functions of the bytes. Source: what users of these
+// cameras report of that mode (no manual of Point Grey's and no camera was at hand); IIDC 1.31 for the Bayer patterns' names.
 #pragma once
 
 #include <cstddef>

@@ -55,7 +55,11 @@ Status Dc1394Camera::find(std::uint64_t guid, Problem& problem) {
   }
   if (guid != 0) camera_ = dc1394_camera_new(library_, guid);
   if (camera_ == nullptr) {
-    problem.set("IEEE 1394: no camera %016llx", static_cast<unsigned long long>(guid));
+    if (guid == 0) {
+      problem.set("IEEE 1394: no camera on the bus");
+    } else {
+      problem.set("IEEE 1394: no camera %016llx", static_cast<unsigned long long>(guid));
+    }
     stop_all();
     return Status::disconnected;
   }
