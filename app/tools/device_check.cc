@@ -211,14 +211,19 @@ DeviceCheck check_servo(Servo& servo, Clock& clock, const CheckSettings& setting
   check.facts["max_speed_mps"] = servo.max_speed_mps();
   WheelTrial trial(servo, clock, check);
   WheelTravel travel;
-  if (trial.read(travel, "read travel")) {
-    check.facts["measures_travel"] = travel.measured;
-    check.facts["travel_m"] = {rounded(travel.left_m, 1e4), rounded(travel.right_m, 1e4)};
+  if (settings.speed_mps <= 0) {
+    const Nanoseconds end = clock.now() + nanoseconds(settings.seconds);
+    while (trial.read(travel, "read travel") && clock.now() < end)
+      clock.sleep_until(std::min(end, clock.now() + kSecond / 10));
+  } else {
     const Nanoseconds duration = nanoseconds(settings.seconds / static_cast<double>(std::size(kSteps)));
     for (const Step& step : kSteps) {
-      if (settings.speed_mps <= 0 || !trial.run(step, settings.speed_mps, duration)) break;
+      if (!trial.run(step, settings.speed_mps, duration)) break;
     }
+    if (check.fault.empty()) (void)trial.read(travel, "read travel");
   }
+  check.facts["measures_travel"] = travel.measured;
+  check.facts["travel_m"] = {rounded(travel.left_m, 1e4), rounded(travel.right_m, 1e4)};
   add_counters(servo, check);
   servo.close();
   return check;

@@ -28,8 +28,8 @@ struct CheckSettings {
 // never change although the camera does not say that it is static.
 DeviceCheck check_camera(StereoCamera& camera, Clock& clock, const CheckSettings& settings);
 
-// Servo: the way travelled is read, then with a speed each wheel alone and both turn forward and back for `seconds` / 6 each; at
-// fault when a command fails, and when a measured way is off by more than a fifth or has the wrong sign.
+// Servo: without a speed the way is watched for `seconds`, for whoever pushes the vehicle; with one each wheel alone and both turn
+// forward and back for `seconds` / 6 each. The way since the start is told. At fault when a command fails, and when a measured way is off by more than a fifth or has the wrong sign.
 DeviceCheck check_servo(Servo& servo, Clock& clock, const CheckSettings& settings);
 
 // Compass: readings for `seconds`; at fault when none comes.

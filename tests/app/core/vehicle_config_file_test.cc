@@ -68,6 +68,18 @@ TEST_F(VehicleConfigFile, AcceptsTheFormsThatYamlAllows) {
   EXPECT_EQ(load("planner: {unknown: \"slow\"}\n").planner.unknown, "slow");
 }
 
+TEST(VehicleConfigBoards, EveryBoardsConfigurationIsAccepted) {
+  const char* root = std::getenv("LAKSHYA_ROOT");
+  if (root == nullptr) GTEST_SKIP() << "LAKSHYA_ROOT does not name the source tree";
+  int boards = 0;
+  for (const auto& board : std::filesystem::directory_iterator(std::filesystem::path(root) / "boards")) {
+    const std::string path = (board.path() / "vehicle.yaml").string();
+    EXPECT_EQ(refusal([&] { load_vehicle_config(path, "", {}); }), "accepted") << path;
+    ++boards;
+  }
+  EXPECT_GE(boards, 4);
+}
+
 TEST_F(VehicleConfigFile, HostBoardIsTheBuiltInConfiguration) {
   if (std::getenv("LAKSHYA_ROOT") == nullptr) GTEST_SKIP() << "LAKSHYA_ROOT does not name the source tree";
   const std::string host = source_file("boards/host/vehicle.yaml");
