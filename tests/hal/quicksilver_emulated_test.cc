@@ -1,49 +1,22 @@
-// The driver against emulated drives: first on a clock that only moves when somebody waits, then over a pseudo-terminal in real
-// time.
+// The driver against emulated drives, on a clock that only moves when somebody waits.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <numbers>
-#include <optional>
 #include <ostream>
 #include <string>
 
-#include "hal/clock/monotonic_clock.h"
-#include "hal/serial/tty_port.h"
 #include "hal/servo/quicksilver.h"
-#include "tests/emulators/on_terminal.h"
 #include "tests/emulators/quicksilver_drive.h"
 #include "tests/support/line_device_port.h"
 #include "tests/support/manual_clock.h"
-#include "tests/support/temp_folder.h"
+#include "tests/support/quicksilver_wheels.h"
 
 namespace lakshya {
 namespace {
 
-// Wheels of 0.6 m a turn, motors of 10 turns for it: 8000 counts are 0.06 m. The right motor is mounted the other way round.
-constexpr double kMetresPerCount = 0.06 / 8000;
-
-QuickSilverSettings settings_of_test() {
-  const double radius = 0.3 / std::numbers::pi;
-  QuickSilverSettings settings;
-  settings.left = {.address = 16, .direction = 1, .radius_m = radius, .gear_ratio = 10};
-  settings.right = {.address = 17, .direction = -1, .radius_m = radius, .gear_ratio = 10};
-  settings.max_acceleration_mps2 = 2;
-  return settings;
-}
-
-double left_m(const emulator::QuickSilverState& state) {
-  return state.position * kMetresPerCount;
-}
-double right_m(const emulator::QuickSilverState& state) {
-  return -state.position * kMetresPerCount;
-}
-double speed_mps(const emulator::QuickSilverState& state) {
-  return std::abs(state.velocity_rpm) * 0.06 / 60;
-}
-
-// ---- on a clock of our own
+using test::left_m;
+using test::right_m;
+using test::speed_mps;
 
 class QuickSilverEmulatedTest : public testing::Test {
  protected:
@@ -81,7 +54,7 @@ class QuickSilverEmulatedTest : public testing::Test {
   ManualClock clock_;
   emulator::QuickSilverLine line_;
   LineDevicePort port_{line_, clock_};
-  QuickSilver servo_{settings_of_test(), port_, clock_};
+  QuickSilver servo_{test::emulated_quicksilver_settings(), port_, clock_};
   WheelTravel travel_;
   double left_start_ = 0;
   double right_start_ = 0;
@@ -108,7 +81,7 @@ TEST_F(QuickSilverEmulatedTest, TenMinutesAcrossTheWrap) {
 
 // The line times that hal/servo/quicksilver.h states, and 0.5 ms a command that these drives take to begin to answer.
 TEST_F(QuickSilverEmulatedTest, TheLineTakesAsLongAsStated) {
-  QuickSilverSettings settings = settings_of_test();
+  QuickSilverSettings settings = test::emulated_quicksilver_settings();
   settings.max_speed_mps = 3.9;
   QuickSilver servo(settings, port_, clock_);
   ASSERT_EQ(servo.open(), Status::ok) << servo.problem();
@@ -141,14 +114,14 @@ TEST_F(QuickSilverEmulatedTest, WithoutResidentProgramsItIsRefused) {
   for (const bool at_power_up : {true, false}) {
     emulator::QuickSilverLine line({16, 17}, {.at_power_up = at_power_up, .zeroes_velocity = false});
     LineDevicePort port(line, clock_);
-    QuickSilver servo(settings_of_test(), port, clock_);
+    QuickSilver servo(test::emulated_quicksilver_settings(), port, clock_);
     EXPECT_EQ(servo.open(), Status::refused);
     EXPECT_NE(std::string(servo.problem()).find("resident program"), std::string::npos) << servo.problem();
   }
 }
 
 TEST_F(QuickSilverEmulatedTest, AnUnsupervisedHostThatGoesSilentLeavesThemTurning) {
-  QuickSilverSettings settings = settings_of_test();
+  QuickSilverSettings settings = test::emulated_quicksilver_settings();
   settings.supervised = false;
   QuickSilver servo(settings, port_, clock_);
   ASSERT_EQ(servo.open(), Status::ok) << servo.problem();
@@ -236,122 +209,6 @@ TEST_F(QuickSilverEmulatedTest, SlowAndSplitRepliesAreFineWithTimeEnough) {
     EXPECT_EQ(servo_.read_travel(in_ms(80), travel_), Status::ok) << servo_.problem();
   }
   expect_travel_is_true();
-}
-
-// ---- over a pseudo-terminal
-
-class QuickSilverOnTerminalTest : public testing::Test {
- protected:
-  Nanoseconds in_ms(int ms) const { return clock_.now() + ms * kMillisecond; }
-
-  int drive_for(int ms, const WheelVelocities& wanted) {
-    int failures = 0;
-    for (const Nanoseconds end = in_ms(ms); clock_.now() < end;) {
-      const Nanoseconds next = in_ms(60);
-      if (servo_.drive(wanted, in_ms(200)) != Status::ok) ++failures;
-      last_drive_ = clock_.now();
-      if (servo_.read_travel(in_ms(200), travel_) != Status::ok) ++failures;
-      clock_.sleep_until(next);
-    }
-    return failures;
-  }
-
-  emulator::QuickSilverState state(std::size_t index) {
-    const auto lock = terminal_->locked();
-    return line_.state(index, emulator::monotonic_ns());
-  }
-
-  void wait_until_both_stand() {
-    for (int i = 0; i < 100 && (speed_mps(state(0)) > 0 || speed_mps(state(1)) > 0); ++i)
-      clock_.sleep_until(in_ms(10));
-  }
-
-  // As udev gives an adapter the same name wherever it is plugged in.
-  std::string linked_path() const {
-    std::string link = folder_.path("drives");
-    std::filesystem::remove(link);
-    std::filesystem::create_symlink(terminal_->path(), link);
-    return link;
-  }
-
-  MonotonicClock clock_;
-  emulator::QuickSilverLine line_;
-  std::optional<emulator::OnTerminal> terminal_{line_};
-  TempFolder folder_;
-  std::string path_ = linked_path();
-  TtyPort port_{{.path = path_, .baud = 57600, .stop_bits = 2}, clock_};
-  QuickSilver servo_{settings_of_test(), port_, clock_};
-  WheelTravel travel_;
-  Nanoseconds last_drive_ = 0;
-};
-
-TEST_F(QuickSilverOnTerminalTest, AStraightAndATurnThenSilence) {
-  ASSERT_EQ(servo_.open(), Status::ok) << servo_.problem();
-  EXPECT_EQ(drive_for(1000, {.left_mps = 0.5, .right_mps = 0.5}), 0) << servo_.problem();
-  EXPECT_EQ(drive_for(1000, {.left_mps = 0.3, .right_mps = -0.3}), 0) << servo_.problem();
-  ASSERT_EQ(servo_.stop(in_ms(200)), Status::ok) << servo_.problem();
-  wait_until_both_stand();
-  ASSERT_EQ(servo_.read_travel(in_ms(200), travel_), Status::ok) << servo_.problem();
-  const double left = left_m(state(0));
-  const double right = right_m(state(1));
-  EXPECT_GT(left, 0.5);
-  EXPECT_NEAR(travel_.left_m, left, 0.01 * left);
-  EXPECT_NEAR(travel_.right_m, right, 0.01 * std::abs(right) + 1e-4);
-
-  ASSERT_EQ(drive_for(500, {.left_mps = 0.1, .right_mps = 0.1}), 0) << servo_.problem();
-  ASSERT_GT(speed_mps(state(0)), 0.05);
-  clock_.sleep_until(last_drive_ + 300 * kMillisecond);
-  EXPECT_EQ(speed_mps(state(0)), 0);
-  EXPECT_EQ(speed_mps(state(1)), 0);
-  EXPECT_TRUE(state(0).tripped && state(1).tripped);
-}
-
-TEST_F(QuickSilverOnTerminalTest, UnpluggedMidDriveTheWheelsStandAndItGoesOnWhenThePlugIsBack) {
-  ASSERT_EQ(servo_.open(), Status::ok) << servo_.problem();
-  ASSERT_EQ(drive_for(300, {.left_mps = 0.1, .right_mps = 0.1}), 0) << servo_.problem();
-  terminal_->unplug();
-  EXPECT_EQ(servo_.drive({.left_mps = 0.1, .right_mps = 0.1}, in_ms(100)), Status::disconnected);
-  EXPECT_EQ(servo_.read_travel(in_ms(100), travel_), Status::disconnected);
-  wait_until_both_stand();
-  EXPECT_EQ(speed_mps(state(0)), 0);
-  EXPECT_TRUE(state(0).tripped);
-
-  terminal_.reset();
-  terminal_.emplace(line_);
-  (void)linked_path();
-  Status status = Status::disconnected;
-  for (const Nanoseconds end = in_ms(3000); status != Status::ok && clock_.now() < end;) {
-    status = servo_.drive({.left_mps = 0.1, .right_mps = 0.1}, in_ms(100));
-    if (status != Status::ok) clock_.sleep_until(in_ms(20));
-  }
-  EXPECT_EQ(status, Status::ok) << servo_.problem();
-  EXPECT_EQ(drive_for(300, {.left_mps = 0.1, .right_mps = 0.1}), 0) << servo_.problem();
-  EXPECT_NEAR(travel_.left_m, left_m(state(0)), 0.01 * travel_.left_m + 0.01);
-}
-
-TEST_F(QuickSilverOnTerminalTest, FaultsInRealTime) {
-  ASSERT_EQ(servo_.open(), Status::ok) << servo_.problem();
-  {
-    const auto lock = terminal_->locked();
-    line_.nak_every = 11;
-    line_.garbage_every = 5;
-    line_.silent_every = 47;
-    line_.split = true;
-  }
-  (void)drive_for(800, {.left_mps = 0.2, .right_mps = 0.2});
-  {
-    const auto lock = terminal_->locked();
-    line_.nak_every = line_.garbage_every = line_.silent_every = 0;
-    line_.split = false;
-    line_.merge = true;
-  }
-  clock_.sleep_until(in_ms(60));
-  EXPECT_EQ(drive_for(300, {.left_mps = 0.2, .right_mps = 0.2}), 0) << servo_.problem();
-  ASSERT_EQ(servo_.stop(in_ms(200)), Status::ok) << servo_.problem();
-  wait_until_both_stand();
-  ASSERT_EQ(servo_.read_travel(in_ms(200), travel_), Status::ok) << servo_.problem();
-  EXPECT_NEAR(travel_.left_m, left_m(state(0)), 0.01 * travel_.left_m);
-  EXPECT_GT(travel_.left_m, 0.05);
 }
 
 }  // namespace
