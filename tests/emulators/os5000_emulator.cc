@@ -14,8 +14,9 @@ namespace {
 using lakshya::emulator::Os5000Device;
 
 constexpr const char* kUsage =
-    "os5000_emulator [--rate HZ] [--heading DEG] [--turn DPS] [--format C|OHPR|HCHDT] [--wrong-checksum-every N]\n"
-    "                [--garbage-every N] [--split] [--merge] [--silent]\n";
+    "usage: os5000_emulator [--rate HZ] [--heading DEG] [--turn DPS] [--format C|OHPR|HCHDT]\n"
+    "                       [--wrong-checksum-every N] [--garbage-every N] [--split] [--merge] [--silent]\n"
+    "                       [--help]\n";
 
 bool set_format(Os5000Device& device, std::string_view name) {
   if (name == "C") {
@@ -69,7 +70,7 @@ bool set_option(Os5000Device& device, int option, const char* text) {
   }
 }
 
-bool set_options(Os5000Device& device, int count, char** arguments) {
+bool set_options(Os5000Device& device, int& help, int count, char** arguments) {
   const option options[] = {{"rate", required_argument, nullptr, 'r'},
                             {"heading", required_argument, nullptr, 'd'},
                             {"turn", required_argument, nullptr, 't'},
@@ -79,9 +80,10 @@ bool set_options(Os5000Device& device, int count, char** arguments) {
                             {"split", no_argument, nullptr, 's'},
                             {"merge", no_argument, nullptr, 'm'},
                             {"silent", no_argument, nullptr, 'q'},
+                            {"help", no_argument, &help, 1},
                             {nullptr, 0, nullptr, 0}};
   for (int option = 0; (option = getopt_long(count, arguments, "", options, nullptr)) != -1;) {
-    if (!set_option(device, option, optarg)) return false;
+    if (option != 0 && !set_option(device, option, optarg)) return false;
   }
   return optind == count;
 }
@@ -90,9 +92,14 @@ bool set_options(Os5000Device& device, int count, char** arguments) {
 
 int main(int count, char** arguments) {
   Os5000Device device;
-  if (!set_options(device, count, arguments)) {
+  int help = 0;
+  if (!set_options(device, help, count, arguments)) {
     std::fputs(kUsage, stderr);
     return 2;
+  }
+  if (help != 0) {
+    std::fputs(kUsage, stdout);
+    return 0;
   }
   // Blocked before the emulator's thread starts, so that only sigwait() sees them.
   sigset_t ends;

@@ -30,7 +30,8 @@ constexpr const char* kUsage =
     "  --merge                      replies come in one piece with a repetition\n"
     "  --slow-ms N                  replies come so much later\n"
     "  --checksum-errors            every command is answered bad checksum\n"
-    "  --state-every MS             print the drives' states\n";
+    "  --state-every MS             print the drives' states\n"
+    "  --help                       this text\n";
 
 struct Options {
   std::vector<int> addresses = {16, 17};
@@ -43,6 +44,7 @@ struct Options {
   int slow_ms = 0;
   int checksum_errors = 0;
   int state_every_ms = 0;
+  int help = 0;
 };
 
 bool read_number(std::string_view text, int lowest, int& number) {
@@ -100,6 +102,7 @@ bool read_options(int argc, char** argv, Options& options) {
                           {"slow-ms", required_argument, nullptr, 'l'},
                           {"checksum-errors", no_argument, &options.checksum_errors, 1},
                           {"state-every", required_argument, nullptr, 't'},
+                          {"help", no_argument, &options.help, 1},
                           {nullptr, 0, nullptr, 0}};
   for (int found = 0; (found = getopt_long(argc, argv, "", known, nullptr)) != -1;) {
     if (found != 0 && !take(found, optarg == nullptr ? "" : optarg, options)) return false;
@@ -151,6 +154,10 @@ int main(int argc, char** argv) {
   if (!lakshya::emulator::read_options(argc, argv, options)) {
     std::fputs(lakshya::emulator::kUsage, stderr);
     return 2;
+  }
+  if (options.help != 0) {
+    std::fputs(lakshya::emulator::kUsage, stdout);
+    return 0;
   }
   std::signal(SIGINT, [](int) { lakshya::emulator::stopped = 1; });
   std::signal(SIGTERM, [](int) { lakshya::emulator::stopped = 1; });
