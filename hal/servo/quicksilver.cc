@@ -59,13 +59,13 @@ Status QuickSilver::drive(const WheelVelocities& wanted, Nanoseconds deadline) {
   const Nanoseconds velocities_by = deadline - std::min(kStopTime, left / 2);
   const Status settled = link_.settle_both(velocities_by, kDriveTime);
   if (settled != Status::ok) return stop_after(settled, 0, deadline);
-  for (std::size_t d : {0, 1}) {
+  for (std::size_t d = 0; d < drives_.size(); ++d) {
     const Status status = set_velocity(d, speeds[d], velocities_by);
     if (status != Status::ok) return stop_after(status, 1 - d, deadline);
   }
   if (!settings_.supervised) return Status::ok;
   counter_ = (counter_ + 1) % kCounterEnd;
-  for (std::size_t d : {0, 1}) {
+  for (std::size_t d = 0; d < drives_.size(); ++d) {
     const Status status = feed(d, deadline);
     if (status != Status::ok) return stop_after(status, 1 - d, deadline);
   }
@@ -147,7 +147,7 @@ Status QuickSilver::read_travel(Nanoseconds deadline, WheelTravel& travel) {
   if (settled != Status::ok) return settled;
   const Nanoseconds begin = clock_->now();
   std::array<std::int32_t, 2> positions{};
-  for (std::size_t d : {0, 1}) {
+  for (std::size_t d = 0; d < drives_.size(); ++d) {
     const Status status = link_.read_register(d, quicksilver::kPositionRegister, deadline, positions[d]);
     if (status != Status::ok) return status;
   }
@@ -163,7 +163,7 @@ Status QuickSilver::take_positions(const std::array<std::int32_t, 2>& positions,
                                    Nanoseconds deadline) {
   using Verdict = QuickSilverTravel::Verdict;
   Status status = Status::ok;
-  for (std::size_t d : {0, 1}) {
+  for (std::size_t d = 0; d < drives_.size(); ++d) {
     const Verdict verdict = drives_[d].travel.take(positions[d], time);
     if (verdict == Verdict::believed) continue;
     status = Status::bad_data;

@@ -23,7 +23,7 @@ Status QuickSilver::open() {
   close();
   Status status = check_settings(settings_, problem_);
   if (status != Status::ok) return status;
-  for (std::size_t d : {0, 1}) {
+  for (std::size_t d = 0; d < drives_.size(); ++d) {
     drives_[d] = {};
     drives_[d].travel.start(metres_per_count(wheel(d)), settings_.max_speed_mps);
     const double rpm_per_s = settings_.max_acceleration_mps2 * std::abs(motor_rpm_per_mps(wheel(d)));
