@@ -111,10 +111,14 @@ Made<Servo> quicksilver(const VehicleConfig& config, Clock& clock) {
                             .gear_ratio = c.gear_ratio,
                             .counts_per_rev = c.counts_per_rev};
   };
+  const QuickSilverWheel left = wheel(c.left_address, c.left_direction);
+  // Motors that cannot turn so fast are asked for what they can.
+  constexpr double kFastestRpm = 3999;
+  const double fastest_mps = kFastestRpm / std::abs(motor_rpm_per_mps(left));
   const QuickSilverSettings settings{
-      .left = wheel(c.left_address, c.left_direction),
+      .left = left,
       .right = wheel(c.right_address, c.right_direction),
-      .max_speed_mps = config.vehicle.max_speed_mps,
+      .max_speed_mps = std::min(config.vehicle.max_speed_mps, fastest_mps),
       // The drives' own ramp must not be the slower one: the speed governor counts on the vehicle's braking.
       .max_acceleration_mps2 = std::max(config.vehicle.acceleration_mps2, config.vehicle.deceleration_mps2),
       .supervised = yes(c.supervised),

@@ -5,36 +5,51 @@
 #include <cstring>
 #include <numbers>
 #include <sstream>
-#include <vector>
+#include <utility>
+
+#include "app/tools/device_check_parts.h"
 
 namespace lakshya {
+
+using namespace device_check;  // NOLINT(google-build-using-namespace): our own parts
+
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-// Drives want their commands again and again; slow lines take 20 ms for one. A late one is no fault here.
-constexpr Nanoseconds kControlPeriod = 40 * kMillisecond;
-constexpr Nanoseconds kCommandTime = 150 * kMillisecond;
-constexpr Nanoseconds kPatience = kSecond;  // for one reading
+constexpr Nanoseconds kSilence = kSecond;  // of a device that should be giving samples
 
-Nanoseconds nanoseconds(double seconds) {
-  return std::llround(seconds * static_cast<double>(kSecond));
-}
-double seconds(Nanoseconds duration) {
-  return static_cast<double>(duration) / static_cast<double>(kSecond);
-}
-double rounded(double value, double per_unit) {
-  return std::round(value * per_unit) / per_unit;
-}
+// What comes of a device that gives samples until `end`: how many, and whether it still did at the end.
+struct Samples {
+  int count = 0;
+  Nanoseconds first = 0;  // arrivals
+  Nanoseconds last = 0;
+  Status failure = Status::timeout;  // the last one
+  bool interrupted = false;
 
-std::string fault_of(const Device& device, Status status, const std::string& doing) {
-  const std::string problem = device.problem();
-  return doing + ": " + to_string(status) + (problem.empty() ? "" : " (" + problem + ")");
-}
+  // `take` waits for one until the time given. Returns at the end, after the end of a recording, and when interrupted.
+  template <class Take>
+  void collect(Clock& clock, Nanoseconds end, const CheckSettings& settings, Take take) {
+    while (clock.now() < end && failure != Status::end_of_data && !(interrupted = lakshya::interrupted(settings))) {
+      const Status status = take(std::min(end, clock.now() + kSilence));
+      if (status == Status::ok) {
+        last = clock.now();
+        if (count++ == 0) first = last;
+      } else if (status != Status::timeout || count == 0) {
+        failure = status;
+      }
+      // A device that is gone answers at once.
+      if (status == Status::disconnected) clock.sleep_until(clock.now() + kMillisecond * 10);
+    }
+  }
 
-void add_counters(const Device& device, DeviceCheck& check) {
-  for (const Counter& counter : device.counters())
-    check.facts["counters"][counter.name] = counter.value;
-}
+  std::string fault(const Device& device, Nanoseconds end) const {
+    if (interrupted) return "interrupted";
+    if (count == 0) return fault_of(device, failure, "nothing came");
+    const Nanoseconds usual = count > 1 ? (last - first) / (count - 1) : 0;
+    if (failure == Status::end_of_data || end - last <= std::max(kSilence, 3 * usual)) return {};
+    return fault_of(device, failure, "nothing came any more");
+  }
+};
 
 // ---- camera
 
@@ -98,71 +113,6 @@ std::string camera_fault(const CameraNotes& notes, bool is_static) {
   return {};
 }
 
-// ---- servo
-
-struct Step {
-  const char* name;
-  double left;  // in speeds
-  double right;
-};
-constexpr Step kSteps[] = {{"left wheel forward", 1, 0},  {"left wheel back", -1, 0},
-                           {"right wheel forward", 0, 1}, {"right wheel back", 0, -1},
-                           {"both wheels forward", 1, 1}, {"both wheels back", -1, -1}};
-
-class WheelTrial {
- public:
-  WheelTrial(Servo& servo, Clock& clock, DeviceCheck& check) : servo_(&servo), clock_(&clock), check_(&check) {}
-
-  bool read(WheelTravel& travel, const char* doing) {
-    return ok(servo_->read_travel(clock_->now() + kPatience, travel), doing);
-  }
-
-  // Drives for a while, stops, waits until the wheels have stopped; adds a line with what was wanted and what was measured.
-  bool run(const Step& step, double speed_mps, Nanoseconds duration) {
-    WheelTravel before;
-    WheelTravel after;
-    if (!read(before, step.name)) return false;
-    const WheelVelocities wanted{step.left * speed_mps, step.right * speed_mps};
-    const Nanoseconds end = clock_->now() + duration;
-    for (Nanoseconds next = clock_->now(); next < end; next += kControlPeriod) {
-      clock_->sleep_until(next);
-      if (!ok(servo_->drive(wanted, next + kCommandTime), step.name)) return false;
-    }
-    clock_->sleep_until(end);
-    if (!ok(servo_->stop(clock_->now() + kPatience), "stop")) return false;
-    clock_->sleep_until(clock_->now() + duration / 2);
-    if (!read(after, step.name)) return false;
-    const double left = after.left_m - before.left_m;
-    const double right = after.right_m - before.right_m;
-    const double time = seconds(duration);
-    check_->facts["steps"].push_back(
-        {{"step", step.name},
-         {"wanted_m", {rounded(wanted.left_mps * time, 1e4), rounded(wanted.right_mps * time, 1e4)}},
-         {"travelled_m", {rounded(left, 1e4), rounded(right, 1e4)}}});
-    if (!after.measured || (as_wanted(left, wanted.left_mps * time) && as_wanted(right, wanted.right_mps * time)))
-      return true;
-    check_->fault = std::string(step.name) +
-                    ": the wheels did not go where they should (compare wanted_m and travelled_m: " +
-                    "gear ratio, wheel radius, directions, left and right swapped?)";
-    return false;
-  }
-
- private:
-  // Within a fifth, or two millimetres for the way of speeding up and slowing down.
-  static bool as_wanted(double way, double wanted) {
-    return std::abs(way - wanted) <= 0.2 * std::abs(wanted) + 0.002;
-  }
-
-  bool ok(Status status, const char* doing) {
-    if (status != Status::ok) check_->fault = fault_of(*servo_, status, doing);
-    return status == Status::ok;
-  }
-
-  Servo* servo_;
-  Clock* clock_;
-  DeviceCheck* check_;
-};
-
 }  // namespace
 
 DeviceCheck check_camera(StereoCamera& camera, Clock& clock, const CheckSettings& settings) {
@@ -172,60 +122,28 @@ DeviceCheck check_camera(StereoCamera& camera, Clock& clock, const CheckSettings
     return check;
   }
   CameraNotes notes;
-  Status last = Status::ok;
+  Samples samples;
   const Nanoseconds end = clock.now() + nanoseconds(settings.seconds);
-  while (clock.now() < end && last != Status::end_of_data) {
+  samples.collect(clock, end, settings, [&](Nanoseconds deadline) {
     StereoFrame frame;
-    const Status status = camera.capture(end, frame);
-    if (status == Status::ok) {
-      notes.add(frame);
-    } else if (status != Status::timeout || notes.pairs == 0) {
-      last = status;
-    }
-    // A camera that is gone answers at once.
-    if (status == Status::disconnected) clock.sleep_until(clock.now() + 10 * kMillisecond);
-  }
+    const Status status = camera.capture(deadline, frame);
+    if (status == Status::ok) notes.add(frame);
+    return status;
+  });
   check.facts["size"] = {camera.width(), camera.height()};
   check.facts["static"] = camera.is_static();
   check.facts["pairs"] = notes.pairs;
-  if (notes.pairs > 1)
+  if (notes.pairs > 1) {
     check.facts["pairs_per_second"] =
         rounded((notes.pairs - 1) / std::max(seconds(notes.last - notes.first), 1e-9), 100);
+  }
   check.facts["lost"] = notes.lost;
   check.facts["skew_ms"] = rounded(seconds(notes.skew) * 1000, 1000);
   check.facts["mean_grey"] = {rounded(notes.left_grey, 10), rounded(notes.right_grey, 10)};
   add_counters(camera, check);
-  check.fault = notes.pairs == 0 ? fault_of(camera, last == Status::ok ? Status::timeout : last, "no pair")
-                                 : camera_fault(notes, camera.is_static());
+  check.fault = samples.fault(camera, end);
+  if (check.fault.empty()) check.fault = camera_fault(notes, camera.is_static());
   camera.close();
-  return check;
-}
-
-DeviceCheck check_servo(Servo& servo, Clock& clock, const CheckSettings& settings) {
-  DeviceCheck check;
-  if (const Status opened = servo.open(); opened != Status::ok) {
-    check.fault = fault_of(servo, opened, "open");
-    return check;
-  }
-  check.facts["supervised"] = servo.is_supervised();
-  check.facts["max_speed_mps"] = servo.max_speed_mps();
-  WheelTrial trial(servo, clock, check);
-  WheelTravel travel;
-  if (settings.speed_mps <= 0) {
-    const Nanoseconds end = clock.now() + nanoseconds(settings.seconds);
-    while (trial.read(travel, "read travel") && clock.now() < end)
-      clock.sleep_until(std::min(end, clock.now() + kSecond / 10));
-  } else {
-    const Nanoseconds duration = nanoseconds(settings.seconds / static_cast<double>(std::size(kSteps)));
-    for (const Step& step : kSteps) {
-      if (!trial.run(step, settings.speed_mps, duration)) break;
-    }
-    if (check.fault.empty()) (void)trial.read(travel, "read travel");
-  }
-  check.facts["measures_travel"] = travel.measured;
-  check.facts["travel_m"] = {rounded(travel.left_m, 1e4), rounded(travel.right_m, 1e4)};
-  add_counters(servo, check);
-  servo.close();
   return check;
 }
 
@@ -235,35 +153,31 @@ DeviceCheck check_compass(Compass& compass, Clock& clock, const CheckSettings& s
     check.fault = fault_of(compass, opened, "open");
     return check;
   }
-  int readings = 0;
   HeadingSample sample;
-  Status last = Status::timeout;
   Nanoseconds first = 0;
+  Samples samples;
   const Nanoseconds end = clock.now() + nanoseconds(settings.seconds);
-  while (clock.now() < end) {
+  samples.collect(clock, end, settings, [&](Nanoseconds deadline) {
     HeadingSample next;
-    const Status status = compass.read(end, next);
-    if (status == Status::ok) {
-      if (readings++ == 0) first = next.time;
-      sample = next;
-    } else if (status != Status::timeout) {
-      last = status;
-    }
-    if (status == Status::disconnected) clock.sleep_until(clock.now() + 10 * kMillisecond);
-  }
+    const Status status = compass.read(deadline, next);
+    if (status != Status::ok) return status;
+    if (samples.count == 0) first = next.time;
+    sample = next;
+    return status;
+  });
   const auto degrees = [](double angle) { return rounded(angle * 180 / kPi, 100); };
-  check.facts["readings"] = readings;
-  if (readings > 1)
+  check.facts["readings"] = samples.count;
+  if (samples.count > 1) {
     check.facts["readings_per_second"] =
-        rounded((readings - 1) / std::max(seconds(sample.time - first), 1e-9), 100);
-  if (readings > 0) {
+        rounded((samples.count - 1) / std::max(seconds(sample.time - first), 1e-9), 100);
+  }
+  if (samples.count > 0) {
     // As on a compass rose: clockwise from true north.
     check.facts["heading_deg"] = degrees(std::fmod(2.5 * kPi - sample.yaw, 2 * kPi));
     if (std::isfinite(sample.pitch)) check.facts["pitch_deg"] = degrees(sample.pitch);
     if (std::isfinite(sample.roll)) check.facts["roll_deg"] = degrees(sample.roll);
-  } else {
-    check.fault = fault_of(compass, last, "no reading");
   }
+  check.fault = samples.fault(compass, end);
   add_counters(compass, check);
   compass.close();
   return check;
@@ -273,9 +187,10 @@ std::string device_check_text(const DeviceCheck& check) {
   std::ostringstream out;
   for (const auto& [name, value] : check.facts.items()) {
     if (name == "steps") {
-      for (const auto& step : value)
+      for (const auto& step : value) {
         out << "  " << step["step"].get<std::string>() << ": wanted " << step["wanted_m"].dump() << " m, travelled "
             << step["travelled_m"].dump() << " m\n";
+      }
     } else if (value.is_object()) {
       out << "  " << name << ":";
       for (const auto& [key, count] : value.items())

@@ -75,7 +75,9 @@ std::vector<FoundDevice> list_serial_ports(const std::string& root) {
     const std::string port = tty.filename().string();
     const std::string driver = fs::read_symlink(tty / "device" / "driver", error).filename().string();
     const std::string id = name_by_id(root, port);
-    found.push_back({"/dev/" + port, driver + (id.empty() ? "" : ", " + id)});
+    FoundDevice device{"/dev/" + port, driver};
+    if (!id.empty()) device.name.append(", ").append(id);
+    found.push_back(device);
   }
   return found;
 }

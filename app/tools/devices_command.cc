@@ -3,6 +3,8 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <atomic>
+#include <csignal>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -26,6 +28,14 @@ struct DevicesOptions {
   bool json = false;
 };
 
+// Whoever sees the wrong wheel turn presses Ctrl-C: the wheels must not go on turning then.
+std::atomic<bool> interrupt_flag = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal may come at any time");
+
+void on_signal(int /*number*/) {
+  interrupt_flag = true;
+}
+
 template <class Kind>
 bool has(std::span<const Driver<Kind>> drivers, const std::string& name) {
   return std::ranges::find(drivers, name, &Driver<Kind>::name) != drivers.end();
@@ -40,7 +50,9 @@ Kind& existing(const Made<Kind>& made, const std::string& name) {
 // NAME is a driver's, or the kind of device whose driver the configuration names.
 DeviceCheck check(const DevicesOptions& o) {
   VehicleConfig config = load_vehicle_config(o.config.config, o.config.profile, o.config.sets);
-  const CheckSettings settings{.seconds = o.seconds, .speed_mps = o.drive_mps};
+  const CheckSettings settings{.seconds = o.seconds, .speed_mps = o.drive_mps, .interrupt = &interrupt_flag};
+  for (const int number : {SIGINT, SIGTERM, SIGHUP})
+    (void)std::signal(number, on_signal);
   MonotonicClock clock;
   const std::string& name = o.test;
   if (name == "camera" || (has(camera_drivers(), name) && name != "none" && name != "sim")) {

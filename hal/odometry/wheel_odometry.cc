@@ -39,13 +39,15 @@ Status WheelOdometry::add(const WheelTravel& travel) {
   const double left = travel.left_m - last_travel_->left_m;
   const double right = travel.right_m - last_travel_->right_m;
   last_travel_ = travel;
-  pose_.time = std::max(pose_.time, travel.time);
+  // Where a compass says what is ahead, way before its first word has no direction.
+  if (settings_.has_compass && !last_heading_) return Status::ok;
   // A centimetre is for the grain of a coarse encoder.
   const double possible = settings_.max_speed_mps * seconds(duration) + 0.01;
   if (!(std::abs(left) <= possible && std::abs(right) <= possible)) {
     ++counters_[kTravelJumps].value;
     return Status::bad_data;
   }
+  pose_.time = std::max(pose_.time, travel.time);
   const double turn = (right - left) / settings_.track_m;
   const double way = (left + right) / 2 * chord_of_arc(turn / 2);
   const double direction = pose_.yaw + turn / 2;

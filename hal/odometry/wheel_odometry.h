@@ -29,7 +29,8 @@ class WheelOdometry final : public Odometry {
  public:
   explicit WheelOdometry(const WheelOdometrySettings& settings) : settings_(settings) {}
 
-  // In order of time; earlier or equal ones are ignored. bad_data: the step is impossible, the pose stays.
+  // In order of time; earlier or equal ones are ignored, and with a compass those before the first heading. bad_data: the step is
+  // impossible, the pose stays, with its time.
   Status add(const WheelTravel& travel);
   // bad_data: not finite, or a jump.
   Status add(const HeadingSample& heading);

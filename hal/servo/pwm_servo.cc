@@ -19,9 +19,15 @@ enum CounterIndex : std::size_t { kRefused, kWriteFailures, kDisconnections };
 constexpr int kNanosecondsPerMicrosecond = 1000;
 constexpr Nanoseconds kExportTime = kSecond / 2;
 constexpr Nanoseconds kExportPoll = 10 * kMillisecond;
+constexpr Nanoseconds kLongestStep = 100 * kMillisecond;  // a pause between calls is no leave for a jump
 
 bool is_direction(int d) {
   return d == 1 || d == -1;
+}
+
+// A chip that is gone matters more than one that will not.
+Status worse(Status a, Status b) {
+  return a == Status::ok || b == Status::disconnected ? b : a;
 }
 
 double towards(double now, double wanted, double step) {
@@ -148,28 +154,48 @@ void PwmServo::release() {
 }
 
 void PwmServo::close() {
-  if (wanted_open_ && duty_fd_[0] >= 0) {
-    (void)set_pulses({});
-    for (int side = 0; side < 2; ++side)
-      (void)write_attribute(side, "enable", 0);
-  }
+  if (!wanted_open_) return;
+  (void)rest();
+  for (int side = 0; side < 2; ++side)
+    (void)write_attribute(side, "enable", 0);
   release();
   wanted_open_ = false;
+}
+
+// By name where the file is not held: a chip that answered badly once may well take this.
+Status PwmServo::rest() {
+  Status result = Status::ok;
+  for (int side = 0; side < 2; ++side) {
+    const auto s = static_cast<std::size_t>(side);
+    const int pulse = settings_.center_us[s] * kNanosecondsPerMicrosecond;
+    const Status status = duty_fd_[s] >= 0 ? write_number(duty_fd_[s], side, "duty_cycle", pulse)
+                                           : write_attribute(side, "duty_cycle", pulse);
+    result = worse(result, status);
+  }
+  pulses_since_ = clock_->now();
+  travel_.set({}, pulses_since_);
+  return result;
 }
 
 Status PwmServo::set_pulses(const WheelVelocities& speeds) {
   const std::array<double, 2> wanted = {speeds.left_mps, speeds.right_mps};
   Status result = Status::ok;
-  for (int side = 0; side < 2; ++side) {
+  for (int side = 0; side < 2 && result == Status::ok; ++side) {
     const auto s = static_cast<std::size_t>(side);
     const double share = std::clamp(wanted[s] / settings_.full_speed_mps, -1.0, 1.0) * settings_.direction[s];
     const double pulse_us = settings_.center_us[s] + share * settings_.span_us;
-    const Status status = write_number(duty_fd_[s], side, "duty_cycle",
-                                       static_cast<int>(std::lround(pulse_us * kNanosecondsPerMicrosecond)));
-    if (status != Status::ok) result = status;
+    result = write_number(duty_fd_[s], side, "duty_cycle",
+                          static_cast<int>(std::lround(pulse_us * kNanosecondsPerMicrosecond)));
   }
-  pulses_since_ = clock_->now();
-  travel_.set(result == Status::disconnected ? WheelVelocities{} : speeds, pulses_since_);
+  if (result == Status::ok) {
+    pulses_since_ = clock_->now();
+    travel_.set(speeds, pulses_since_);
+    return result;
+  }
+  // One wheel alone would turn the vehicle round.
+  const Problem why = problem_;
+  (void)rest();
+  problem_ = why;
   if (result == Status::disconnected) {
     ++counters_[kDisconnections].value;
     release();
@@ -201,8 +227,8 @@ Status PwmServo::drive(const WheelVelocities& wanted, Nanoseconds /*deadline*/) 
     return Status::refused;
   }
   const WheelVelocities& now = travel_.speeds();
-  const double step =
-      settings_.slew_mps2 * static_cast<double>(clock_->now() - pulses_since_) / static_cast<double>(kSecond);
+  const Nanoseconds since = std::min(clock_->now() - pulses_since_, kLongestStep);
+  const double step = settings_.slew_mps2 * static_cast<double>(since) / static_cast<double>(kSecond);
   return set_pulses({towards(now.left_mps, wanted.left_mps, step), towards(now.right_mps, wanted.right_mps, step)});
 }
 
@@ -213,9 +239,7 @@ Status PwmServo::read_travel(Nanoseconds /*deadline*/, WheelTravel& travel) {
 }
 
 Status PwmServo::stop(Nanoseconds /*deadline*/) {
-  const Status ready = reopen_when_due();
-  if (ready != Status::ok) return ready;
-  return set_pulses({});
+  return wanted_open_ ? rest() : Status::disconnected;
 }
 
 }  // namespace lakshya

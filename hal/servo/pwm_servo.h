@@ -46,8 +46,9 @@ class PwmServo final : public Servo {
   // refused_commands; write_failures; disconnections
   std::span<const Counter> counters() const override { return counters_; }
 
-  // One step towards the wanted speeds, as far as the slew allows since the last call; to be called again and again. Does not
-  // wait. disconnected: the chip is gone; it is looked for again every 200 ms.
+  // One step towards the wanted speeds, as far as the slew allows since the last call, for at most 100 ms of it; to be called
+  // again and again. Does not wait. When a channel does not take its pulse, both wheels are set to rest. disconnected: the chip is
+  // gone; it is looked for again every 200 ms.
   Status drive(const WheelVelocities& wanted, Nanoseconds deadline) override;
   // The way of wheels that do as the pulses say: measured is false.
   Status read_travel(Nanoseconds deadline, WheelTravel& travel) override;
@@ -61,6 +62,7 @@ class PwmServo final : public Servo {
   Status write_attribute(int side, const char* name, int value);
   int open_attribute(int side, const char* name);
   Status write_number(int fd, int side, const char* name, int value);
+  Status rest();
   Status set_pulses(const WheelVelocities& speeds);
   Status reopen_when_due();
   void release();

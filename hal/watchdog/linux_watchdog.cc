@@ -28,14 +28,21 @@ Status LinuxWatchdog::open() {
     return Status::disconnected;
   }
   timeout_s_ = settings_.timeout_s;
+  Status status = Status::ok;
   const int error = system_->ioctl(fd_, WDIOC_SETTIMEOUT, &timeout_s_);
   if (error < 0) {
     problem_.set("%s: takes no timeout of %d s: %s", settings_.path.c_str(), settings_.timeout_s,
                  strerrordesc_np(-error));
-    close();
-    return Status::unsupported;
+    status = Status::unsupported;
+  } else {
+    status = kick();
   }
-  return kick();
+  if (status == Status::ok) return status;
+  // Opening has armed it: nobody would kick it from now on.
+  const Problem why = problem_;
+  close();
+  problem_ = why;
+  return status;
 }
 
 void LinuxWatchdog::close() {

@@ -99,7 +99,7 @@ TEST_F(FolderCameraTest, RepeatsWithoutAPauseAndCountsOn) {
     ASSERT_EQ(camera.capture(in_ms(100), frame_), Status::ok);
     EXPECT_EQ(frame_.left.at(0, 0), n % 2);
     EXPECT_EQ(frame_.sequence, static_cast<std::uint64_t>(n));
-    EXPECT_EQ(frame_.left_time, start + n * 50 * kMillisecond);
+    EXPECT_EQ(frame_.left_time, start + n * (50 * kMillisecond));
   }
 }
 

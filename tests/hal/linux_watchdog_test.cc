@@ -79,6 +79,18 @@ TEST_F(LinuxWatchdogTest, CountsKicksThatDoNotArrive) {
   EXPECT_EQ(watchdog.kick(), Status::ok);
 }
 
+TEST_F(LinuxWatchdogTest, IsDisarmedAgainWhenItCannotBeKicked) {
+  const auto answer = system_.on_ioctl;
+  system_.on_ioctl = [&](unsigned long request, void* argument) {
+    return request == WDIOC_KEEPALIVE ? -EIO : answer(request, argument);
+  };
+  LinuxWatchdog watchdog(settings_, system_);
+  EXPECT_EQ(watchdog.open(), Status::disconnected);
+  EXPECT_TRUE(disarmed_);
+  EXPECT_EQ(system_.open_files(), 0U);
+  EXPECT_NE(std::string(watchdog.problem()).find("Input/output error"), std::string::npos) << watchdog.problem();
+}
+
 TEST_F(LinuxWatchdogTest, RefusesWhatIsNoWatchdog) {
   LinuxWatchdog none({.path = folder_.path("none")}, system_);
   EXPECT_EQ(none.open(), Status::disconnected);

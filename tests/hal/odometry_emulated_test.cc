@@ -52,7 +52,7 @@ class OdometryEmulatedTest : public testing::Test {
       ASSERT_EQ(compass_.open(), Status::ok) << compass_.problem();
     }
     (void)follow_truth();
-    truth_ = {.yaw = has_compass ? true_yaw_ : 0};
+    truth_ = {.yaw = has_compass ? kStartYaw : 0};
   }
 
   // 60 ms: a command, a reading of the wheels and one of the compass; the truth in steps of at most 5 ms where nobody talks.
@@ -111,7 +111,7 @@ class OdometryEmulatedTest : public testing::Test {
     compass_device_.heading_deg = 90 - truth_.yaw * 180 / kPi;
   }
 
-  static constexpr double true_yaw_ = 0.7;
+  static constexpr double kStartYaw = 0.7;
 
   ManualClock clock_;
   emulator::QuickSilverLine line_;
@@ -121,7 +121,7 @@ class OdometryEmulatedTest : public testing::Test {
   QuickSilver servo_{drives(), servo_port_, clock_};
   Os5000 compass_{{}, compass_port_, clock_};
   WheelOdometry odometry_{{}};
-  TruePath truth_{.yaw = true_yaw_};
+  TruePath truth_{.yaw = kStartYaw};
   double left_ = 0;
   double right_ = 0;
   int headings_ = 0;

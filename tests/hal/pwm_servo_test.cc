@@ -96,11 +96,14 @@ TEST_F(PwmServoTest, SpeedsChangeNoFasterThanTheSlewButAStopIsAtOnce) {
   EXPECT_EQ(pulses(), (Pulses{1510, 1490}));
   clock_.advance(10 * kMillisecond);
   ASSERT_EQ(servo.read_travel(clock_.now(), travel_), Status::ok);  // looking changes nothing
-  clock_.advance(70 * kMillisecond);
+  clock_.advance(50 * kMillisecond);
   ASSERT_EQ(drive(servo, 1, -1), Status::ok);
-  EXPECT_EQ(pulses(), (Pulses{1560, 1440}));
+  EXPECT_EQ(pulses(), (Pulses{1550, 1450}));
   ASSERT_EQ(servo.stop(clock_.now()), Status::ok);
   EXPECT_EQ(pulses(), (Pulses{1500, 1500}));
+  clock_.advance(10 * kSecond);  // a pause is no leave for a jump
+  ASSERT_EQ(drive(servo, 1, -1), Status::ok);
+  EXPECT_EQ(pulses(), (Pulses{1550, 1450}));
 }
 
 TEST_F(PwmServoTest, TheWayIsThatOfThePulsesAndSaysThatNobodyMeasuredIt) {
@@ -141,15 +144,51 @@ TEST_F(PwmServoTest, AChipThatGoesIsLookedForAgainAndStartsAtRest) {
   const Nanoseconds before = clock_.now();
   EXPECT_EQ(servo.stop(clock_.now()), Status::disconnected);
   EXPECT_EQ(servo.read_travel(clock_.now(), travel_), Status::disconnected);
-  EXPECT_EQ(clock_.now(), before);  // nobody waited for it
+  EXPECT_EQ(drive(servo, 1, 1), Status::disconnected);
+  EXPECT_EQ(clock_.now() - before, 20 * kMillisecond);  // nobody waited for it
   system_.unplugged = false;
-  settings_.slew_mps2 = 1;
   EXPECT_EQ(drive(servo, 1, 1), Status::disconnected);  // too early to look again
   clock_.advance(200 * kMillisecond);
+  system_.writes.clear();
   ASSERT_EQ(drive(servo, 1, 1), Status::ok);
-  EXPECT_EQ(pulses(), (Pulses{1500, 1500}));
+  EXPECT_EQ(pulses(), (Pulses{1500, 1500}));  // no time has passed since they were set up
   ASSERT_EQ(drive(servo, 1, 1), Status::ok);
   EXPECT_EQ(pulses(), (Pulses{2000, 2000}));
+}
+
+TEST_F(PwmServoTest, WhenOneChannelFailsOnceBothWheelsAreStopped) {
+  for (const int error : {EIO, EINVAL}) {
+    for (const char* channel : {"pwm0/", "pwm1/"}) {
+      FaultySystem system;
+      PwmServo servo(settings_, clock_, system);
+      ASSERT_EQ(servo.open(), Status::ok) << servo.problem();
+      ASSERT_EQ(drive(servo, 1, 1), Status::ok);
+      system.write_error = error;
+      system.write_error_at = channel;
+      system.write_errors_left = 1;
+      system.writes.clear();
+      EXPECT_EQ(drive(servo, 0.5, 0.5), error == EIO ? Status::disconnected : Status::refused);
+      ASSERT_GE(system.writes.size(), 2U);
+      EXPECT_EQ(system.writes[system.writes.size() - 2], "duty_cycle=1500000");
+      EXPECT_EQ(system.writes[system.writes.size() - 1], "duty_cycle=1500000");
+    }
+  }
+}
+
+TEST_F(PwmServoTest, ALostChipIsStoppedByCloseIfItIsBack) {
+  PwmServo servo(settings_, clock_, system_);
+  ASSERT_EQ(servo.open(), Status::ok) << servo.problem();
+  ASSERT_EQ(drive(servo, 1, 1), Status::ok);
+  system_.unplugged = true;
+  EXPECT_EQ(drive(servo, 1, 1), Status::disconnected);
+  system_.unplugged = false;
+  system_.writes.clear();
+  EXPECT_EQ(servo.stop(clock_.now()), Status::ok);  // at once, whatever drive() waits for
+  servo.close();
+  const std::vector<std::string> down = {"duty_cycle=1500000", "duty_cycle=1500000", "duty_cycle=1500000",
+                                         "duty_cycle=1500000", "enable=0",           "enable=0"};
+  EXPECT_EQ(system_.writes, down);
+  EXPECT_EQ(system_.open_files(), 0U);
 }
 
 TEST_F(PwmServoTest, APulseThatTheChipDoesNotTakeIsRefused) {
@@ -158,7 +197,7 @@ TEST_F(PwmServoTest, APulseThatTheChipDoesNotTakeIsRefused) {
   system_.write_error = EINVAL;
   EXPECT_EQ(drive(servo, 1, 1), Status::refused);
   EXPECT_NE(std::string(servo.problem()).find("duty_cycle"), std::string::npos) << servo.problem();
-  EXPECT_EQ(servo.counters()[1].value, 2U);
+  EXPECT_EQ(servo.counters()[1].value, 3U);  // the left pulse, and both of rest
 }
 
 TEST_F(PwmServoTest, ChannelsExportedBeforeAreFineAndThoseThatDoNotComeAreNotWaitedForLong) {

@@ -74,6 +74,8 @@ TEST_F(WheelOdometryTest, TheFirstHeadingIsWhereTheVehiclePoints) {
   PoseSample p;
   ASSERT_EQ(odometry.add(travel_), Status::ok);
   EXPECT_EQ(odometry.pose(p), Status::timeout);
+  run(odometry, 1, 1, 1);  // in a direction that nobody knows
+  EXPECT_EQ(odometry.pose(p), Status::timeout);
   ASSERT_EQ(odometry.add(HeadingSample{.yaw = kPi / 2, .time = travel_.time}), Status::ok);
   run(odometry, 1, 1, 3);
   p = pose(odometry);
@@ -137,6 +139,7 @@ TEST_F(WheelOdometryTest, AWheelThatLostCountIsLeftOut) {
   travel_.left_m = 0;  // the drive was switched off and on
   travel_.time += 20 * kMillisecond;
   EXPECT_EQ(odometry.add(travel_), Status::bad_data);
+  EXPECT_EQ(pose(odometry).time, travel_.time - 20 * kMillisecond);
   travel_.right_m = std::numeric_limits<double>::quiet_NaN();
   travel_.time += 20 * kMillisecond;
   EXPECT_EQ(odometry.add(travel_), Status::bad_data);

@@ -37,7 +37,8 @@ class FaultySystem final : public SystemCalls {
   }
   long write_at_start(int fd, std::span<const char> bytes) override {
     if (unplugged) return -ENODEV;
-    if (write_error != 0) return -write_error;
+    if (write_error != 0 && paths_[fd].find(write_error_at) != std::string::npos && write_errors_left-- > 0)
+      return -write_error;
     writes.push_back(paths_[fd].substr(paths_[fd].rfind('/') + 1) + "=" + std::string(bytes.begin(), bytes.end()));
     return linux_system_calls().write_at_start(fd, bytes);
   }
@@ -46,7 +47,9 @@ class FaultySystem final : public SystemCalls {
   std::size_t open_files() const { return paths_.size(); }
 
   bool unplugged = false;
-  int write_error = 0;
+  int write_error = 0;         // of the next `write_errors_left` writes to files whose paths contain
+  std::string write_error_at;  // this
+  int write_errors_left = 1'000'000;
   std::function<int(unsigned long request, void* argument)> on_ioctl;
   std::vector<std::string> writes;  // "file name=text", in order
 

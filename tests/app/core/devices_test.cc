@@ -113,6 +113,11 @@ TEST_F(DevicesTest, DrivesTakeTheVehiclesLimits) {
   EXPECT_EQ(make_servo(config_, clock_).device->max_speed_mps(), 0.3);
   config_.pwm.supervised = "yes";
   EXPECT_EQ(make_servo(config_, clock_).device->max_speed_mps(), 1.2);
+  config_.drivers.servo = "quicksilver";
+  config_.quicksilver.port = "/dev/none";
+  EXPECT_EQ(make_servo(config_, clock_).device->max_speed_mps(), 1.5);
+  config_.vehicle.max_speed_mps = 7;  // wheels of 0.1 m behind gears of 10 do 4.2 m/s at 4000 rpm
+  EXPECT_NEAR(make_servo(config_, clock_).device->max_speed_mps(), 4.19, 0.01);
   config_.drivers.compass = "os5000";
   EXPECT_TRUE(odometry_settings(config_).has_compass);
   EXPECT_EQ(odometry_settings(config_).track_m, config_.vehicle.track_m);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -27,6 +29,10 @@ class TestCamera final : public StereoCamera {
   bool is_static() const override { return is_static_camera; }
   Status capture(Nanoseconds deadline, StereoFrame& frame) override {
     const Nanoseconds due = clock_->now() + 50 * kMillisecond;
+    if (unplugged_after >= 0 && sequence_ >= static_cast<std::uint64_t>(unplugged_after)) {
+      problem_.set("video9: gone");
+      return Status::disconnected;
+    }
     if (silent || due > deadline) {
       clock_->sleep_until(deadline);
       return Status::timeout;
@@ -46,6 +52,7 @@ class TestCamera final : public StereoCamera {
 
   Status opens = Status::ok;
   bool silent = false;
+  int unplugged_after = -1;
   bool frozen = false;
   bool is_static_camera = false;
   bool closed = false;
@@ -67,9 +74,9 @@ class TestServo final : public Servo {
   std::span<const Counter> counters() const override { return {}; }
   Status drive(const WheelVelocities& wanted, Nanoseconds /*deadline*/) override {
     advance();
-    now_ = wanted;
-    if (swapped) std::swap(now_.left_mps, now_.right_mps);
-    now_.right_mps *= right_factor;
+    wanted_ = wanted;
+    if (swapped) std::swap(wanted_.left_mps, wanted_.right_mps);
+    wanted_.right_mps *= right_factor;
     ++commands;
     if (commands == naks_at) problem_.set("drive 17: busy");
     return commands == naks_at ? Status::refused : Status::ok;
@@ -83,23 +90,32 @@ class TestServo final : public Servo {
   double max_speed_mps() const override { return 1; }
   bool is_supervised() const override { return true; }
 
-  bool still() const { return now_.left_mps == 0 && now_.right_mps == 0; }
+  bool still() const { return wanted_.left_mps == 0 && wanted_.right_mps == 0; }
 
   bool swapped = false;
+  double acceleration = 1e6;
   double right_factor = 1;
   int commands = 0;
   int naks_at = -1;
 
  private:
+  static double towards(double now, double wanted, double step) {
+    return now + std::clamp(wanted - now, -step, step);
+  }
+  // In steps of a millisecond.
   void advance() {
-    const double s = static_cast<double>(clock_->now() - travel_.time) * 1e-9;
-    travel_.left_m += now_.left_mps * s;
-    travel_.right_m += now_.right_mps * s;
-    travel_.time = clock_->now();
+    while (travel_.time < clock_->now()) {
+      const double step = acceleration * 1e-3;
+      now_ = {towards(now_.left_mps, wanted_.left_mps, step), towards(now_.right_mps, wanted_.right_mps, step)};
+      travel_.left_m += now_.left_mps * 1e-3;
+      travel_.right_m += now_.right_mps * 1e-3;
+      travel_.time += kMillisecond;
+    }
   }
   Clock* clock_;
+  WheelVelocities wanted_;
   WheelVelocities now_;
-  WheelTravel travel_;
+  WheelTravel travel_{.time = clock_->now()};
 };
 
 class TestCompass final : public Compass {
@@ -155,7 +171,9 @@ TEST_F(DeviceCheckTest, CamerasAtFault) {
   };
   EXPECT_EQ(fault([](TestCamera& c) { c.opens = Status::disconnected; }),
             "open: disconnected (video9: no such thing)");
-  EXPECT_EQ(fault([](TestCamera& c) { c.silent = true; }), "no pair: timeout");
+  EXPECT_EQ(fault([](TestCamera& c) { c.silent = true; }), "nothing came: timeout");
+  EXPECT_EQ(fault([](TestCamera& c) { c.unplugged_after = 20; }),
+            "nothing came any more: disconnected (video9: gone)");
   EXPECT_TRUE(fault([](TestCamera& c) { c.frozen = true; }).starts_with("frozen"));
   EXPECT_EQ(fault([](TestCamera& c) { c.frozen = c.is_static_camera = true; }), "");
   EXPECT_TRUE(fault([](TestCamera& c) { c.left_grey = 0; }).starts_with("left images are black"));
@@ -187,7 +205,7 @@ TEST_F(DeviceCheckTest, DrivesAtFault) {
   const auto fault = [this](auto change) {
     TestServo servo(clock_);
     change(servo);
-    const std::string text = check_servo(servo, clock_, settings_).fault;
+    std::string text = check_servo(servo, clock_, settings_).fault;
     EXPECT_TRUE(servo.still());
     return text;
   };
@@ -198,6 +216,26 @@ TEST_F(DeviceCheckTest, DrivesAtFault) {
   EXPECT_TRUE(
       fault([](TestServo& s) { s.right_factor = 1.3; }).starts_with("right wheel forward: the wheels did not"));
   EXPECT_EQ(fault([](TestServo& s) { s.naks_at = 20; }), "left wheel back: refused (drive 17: busy)");
+}
+
+TEST_F(DeviceCheckTest, WhoInterruptsFindsTheWheelsStanding) {
+  TestServo servo(clock_);
+  const std::atomic<bool> interrupt = true;
+  settings_.speed_mps = 0.1;
+  settings_.interrupt = &interrupt;
+  EXPECT_EQ(check_servo(servo, clock_, settings_).fault, "interrupted");
+  EXPECT_TRUE(servo.still());
+  TestCompass compass(clock_);
+  EXPECT_EQ(check_compass(compass, clock_, settings_).fault, "interrupted");
+}
+
+TEST_F(DeviceCheckTest, WheelsThatTakeTimeToStopAreWaitedFor) {
+  TestServo servo(clock_);
+  servo.acceleration = 0.6;
+  settings_.speed_mps = 1;
+  const DeviceCheck check = check_servo(servo, clock_, settings_);
+  EXPECT_EQ(check.fault, "");
+  EXPECT_NEAR(check.facts["steps"][0]["travelled_m"][0].get<double>(), 4, 0.05);
 }
 
 TEST_F(DeviceCheckTest, DrivesThatMeasureNothingAreBelieved) {
@@ -217,7 +255,7 @@ TEST_F(DeviceCheckTest, ACompass) {
   EXPECT_NEAR(check.facts["pitch_deg"].get<double>(), 5.73, 1e-9);
   EXPECT_FALSE(check.facts.contains("roll_deg"));
   compass.broken = true;
-  EXPECT_EQ(check_compass(compass, clock_, settings_).fault, "no reading: bad data");
+  EXPECT_EQ(check_compass(compass, clock_, settings_).fault, "nothing came: bad data");
 }
 
 }  // namespace

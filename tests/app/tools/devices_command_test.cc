@@ -37,8 +37,7 @@ class DevicesCommand : public testing::Test {
 class QuickSilverCommand : public DevicesCommand {
  protected:
   static Outcome test_drives(const std::string& port, Words more = {}) {
-    Words words{
-        "--test", "quicksilver", "--json", "--set", "quicksilver.port=" + port, "--set", "vehicle.max_speed_mps=1"};
+    Words words{"--test", "quicksilver", "--json", "--set", "quicksilver.port=" + port};
     words.insert(words.end(), more.begin(), more.end());
     return devices(words);
   }
@@ -54,6 +53,7 @@ TEST_F(QuickSilverCommand, DrivesTurnAndTheirTravelIsRight) {
   const Json json = Json::parse(o.out);
   EXPECT_TRUE(json["ok"]);
   EXPECT_TRUE(json["supervised"]);
+  EXPECT_NEAR(json["max_speed_mps"].get<double>(), 4.19, 0.01);
   ASSERT_EQ(json["steps"].size(), 6U);
   EXPECT_EQ(json["steps"][0]["step"], "left wheel forward");
   EXPECT_GT(json["steps"][0]["travelled_m"][0].get<double>(), 0.08);
@@ -83,6 +83,20 @@ TEST_F(QuickSilverCommand, DrivesWithoutTheirProgramAreRefused) {
   EXPECT_EQ(fast.exit_code, 1);
   EXPECT_NE(Json::parse(fast.out)["fault"].get<std::string>().find("faster than 0.3 m/s"), std::string::npos)
       << fast.out;
+}
+
+TEST_F(QuickSilverCommand, CtrlCStopsTheWheels) {
+  // Without the program in the drives: VMI runs until the next command.
+  emulator::QuickSilverLine bare({16, 17}, {.at_power_up = false});
+  emulator::OnTerminal terminal(bare);
+  const Outcome o = run_command({"timeout", "--signal=INT", "2", lakshya_binary(), "devices", "--test",
+                                 "quicksilver", "--set", "quicksilver.port=" + terminal.path(), "--set",
+                                 "quicksilver.supervised=no", "--drive", "0.2", "--seconds", "60"});
+  EXPECT_NE(o.out.find("at fault: interrupted"), std::string::npos) << o.out << o.err;
+  const auto lock = terminal.locked();
+  const std::int64_t soon = emulator::monotonic_ns() + 1'000'000'000;
+  EXPECT_GT(bare.state(0, soon).position, 0);
+  EXPECT_EQ(bare.state(0, soon).velocity_rpm, 0);
 }
 
 TEST_F(DevicesCommand, ACompassOnItsLine) {
