@@ -15,7 +15,7 @@ inline double seconds(Nanoseconds duration) {
   return static_cast<double>(duration) / static_cast<double>(kSecond);
 }
 inline double rounded(double value, double per_unit) {
-  return std::round(value * per_unit) / per_unit;
+  return std::round(value * per_unit) / per_unit + 0.0;  // no "-0.0"
 }
 
 inline std::string fault_of(const Device& device, Status status, const std::string& doing) {

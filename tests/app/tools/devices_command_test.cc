@@ -3,12 +3,20 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "app/core/image.h"
 #include "app/core/image_file.h"
+#include "app/core/vehicle_config_file.h"
 #include "tests/emulators/on_terminal.h"
 #include "tests/emulators/os5000_device.h"
 #include "tests/emulators/quicksilver_drive.h"
@@ -153,17 +161,68 @@ TEST_F(DevicesCommand, WhatCannotBeTestedIsRefused) {
 
 // ---- compass --calibrate
 
-TEST_F(DevicesCommand, AMagnetometerThatDoesNotTurnIsNoCalibration) {
-  std::filesystem::create_directories(folder_.path("iio:device0"));
-  for (const char* axis : {"x", "y", "z"})
-    (void)folder_.write(std::string("iio:device0/in_magn_") + axis + "_raw", std::string("200\n"));
-  (void)folder_.write("iio:device0/in_magn_scale", std::string("0.001\n"));
-  (void)folder_.write("iio:device0/name", std::string("hmc5883l\n"));
-  const Outcome o = run_command({lakshya_binary(), "compass", "--calibrate", "--seconds", "2", "--sysfs",
-                                 folder_.path("."), "--set", "compass.rate_hz=100"});
+// A magnetometer in a folder laid out as sysfs.
+class CompassCommand : public DevicesCommand {
+ protected:
+  CompassCommand() {
+    std::filesystem::create_directories(folder_.path("iio:device0"));
+    (void)folder_.write("iio:device0/in_magn_scale", std::string("0.0001\n"));
+    (void)folder_.write("iio:device0/name", std::string("hmc5883l\n"));
+    point(0);
+  }
+
+  // Its level field, moved by 0.3 and -0.1 gauss and stretched by a quarter forward, when the vehicle points there.
+  void point(double angle) {
+    set("x", 3000 + 2500 * std::cos(angle));
+    set("y", -1000 + 2000 * std::sin(angle));
+    set("z", -4000);
+  }
+
+  Outcome calibrate() {
+    return run_command({lakshya_binary(), "compass", "--calibrate", "--seconds", "3", "--sysfs", folder_.path("."),
+                        "--set", "compass.rate_hz=100"});
+  }
+
+ private:
+  // In one piece of constant length: who reads meanwhile gets the old number or the new one.
+  void set(const std::string& axis, double raw) {
+    char text[16];
+    (void)std::snprintf(text, sizeof text, "%6ld\n", std::lround(raw));
+    std::fstream file(folder_.path("iio:device0/in_magn_" + axis + "_raw"), std::ios::in | std::ios::out);
+    if (!file.is_open()) {
+      (void)folder_.write("iio:device0/in_magn_" + axis + "_raw", std::string(text));
+      return;
+    }
+    file.write(text, 7);
+  }
+};
+
+TEST_F(CompassCommand, ATurnOnTheSpotIsACalibration) {
+  std::atomic<bool> done = false;
+  std::thread turning([&] {
+    for (double angle = 0; !done; angle += 0.02) {
+      point(angle);
+      std::this_thread::sleep_for(std::chrono::milliseconds(3));
+    }
+  });
+  const Outcome o = calibrate();
+  done = true;
+  turning.join();
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  const VehicleConfig config = parse_vehicle_config(o.out, "output", "", {});
+  EXPECT_NEAR(config.iio.hard_iron_x_gauss, 0.3, 0.01) << o.out;
+  EXPECT_NEAR(config.iio.hard_iron_y_gauss, -0.1, 0.01) << o.out;
+  EXPECT_NEAR(config.iio.soft_iron_yy / config.iio.soft_iron_xx, 1.25, 0.03) << o.out;
+}
+
+TEST_F(CompassCommand, WithoutATurnThereIsNone) {
+  const Outcome o = calibrate();
   EXPECT_EQ(o.exit_code, 1);
   EXPECT_EQ(o.out, "");
   EXPECT_NE(o.err.find("calibration: "), std::string::npos) << o.err;
+}
+
+TEST_F(CompassCommand, AxesThatAreNoneAreRefused) {
   const Outcome axes = run_command({lakshya_binary(), "compass", "--calibrate", "--set", "iio.axes=x,x,z"});
   EXPECT_EQ(axes.exit_code, 1);
   EXPECT_NE(axes.err.find("iio.axes"), std::string::npos) << axes.err;
