@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace lakshya {
-
-double wrapped_angle(double rad) {
-  const double near = std::remainder(rad, 2 * std::numbers::pi);
-  return near <= -std::numbers::pi ? std::numbers::pi : near;
-}
 
 HeadingSample seen_from_vehicle(const HeadingSample& device, double mounting) {
   HeadingSample vehicle = device;

@@ -1,17 +1,11 @@
 // Angles from what a compass measures, and of one that is not mounted straight.
 #pragma once
 
-#include <numbers>
-
+#include "hal/angle.h"
 #include "hal/compass.h"
 #include "hal/compass/matrix3.h"
 
 namespace lakshya {
-
-inline constexpr double kRadiansPerDegree = std::numbers::pi / 180;
-
-// Into (-pi, pi].
-double wrapped_angle(double rad);
 
 // The vehicle's angles from those of a device whose forward axis points `mounting` rad to the left of the vehicle's (about the
 // up axis they share; seen from above, counter-clockwise positive). Yaw, pitch and roll are turned one after the other, in this

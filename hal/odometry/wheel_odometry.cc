@@ -4,18 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "hal/angle.h"
+
 namespace lakshya {
 namespace {
 
 enum CounterIndex : std::size_t { kTravelJumps, kHeadingJumps };
 
 constexpr double kPi = std::numbers::pi;
-
-// In (-pi, pi].
-double wrapped(double angle) {
-  const double a = std::remainder(angle, 2 * kPi);
-  return a <= -kPi ? a + 2 * kPi : a;
-}
 
 double seconds(Nanoseconds duration) {
   return static_cast<double>(duration) / static_cast<double>(kSecond);
@@ -53,7 +49,7 @@ Status WheelOdometry::add(const WheelTravel& travel) {
   const double direction = pose_.yaw + turn / 2;
   pose_.east_m += way * std::cos(direction);
   pose_.north_m += way * std::sin(direction);
-  pose_.yaw = wrapped(pose_.yaw + turn);
+  pose_.yaw = wrapped_angle(pose_.yaw + turn);
   return Status::ok;
 }
 
@@ -61,22 +57,22 @@ Status WheelOdometry::add(const HeadingSample& heading) {
   if (!std::isfinite(heading.yaw)) return Status::bad_data;
   if (!last_heading_) {
     last_heading_ = heading.time;
-    pose_.yaw = wrapped(heading.yaw);
+    pose_.yaw = wrapped_angle(heading.yaw);
     pose_.time = std::max(pose_.time, heading.time);
     return Status::ok;
   }
   const Nanoseconds duration = heading.time - *last_heading_;
   if (duration <= 0) return Status::ok;
   last_heading_ = heading.time;
-  const double error = wrapped(heading.yaw - pose_.yaw);
+  const double error = wrapped_angle(heading.yaw - pose_.yaw);
   if (std::abs(error) > settings_.heading_jump_deg * kPi / 180) {
     ++counters_[kHeadingJumps].value;
     if (!jumped_since_) jumped_since_ = heading.time;
     if (seconds(heading.time - *jumped_since_) < settings_.jump_hold_s) return Status::bad_data;
     // It is the wheels that are wrong: the vehicle slipped, or was turned by hand.
-    pose_.yaw = wrapped(heading.yaw);
+    pose_.yaw = wrapped_angle(heading.yaw);
   } else {
-    pose_.yaw = wrapped(pose_.yaw + error * (1 - std::exp(-seconds(duration) / settings_.heading_time_s)));
+    pose_.yaw = wrapped_angle(pose_.yaw + error * (1 - std::exp(-seconds(duration) / settings_.heading_time_s)));
   }
   jumped_since_.reset();
   pose_.time = std::max(pose_.time, heading.time);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace lakshya {
 namespace {
@@ -34,15 +35,6 @@ Matrix about_z(double a) {
 // From body axes (forward, left, up) to the world's (east, north, up).
 Matrix rotation_of(const HeadingSample& s) {
   return times(about_z(s.yaw), times(about_y(-s.pitch), about_x(s.roll)));
-}
-
-TEST(Attitude, AnglesAreWrappedIntoHalfOpenTurn) {
-  const double pi = std::numbers::pi;
-  EXPECT_EQ(wrapped_angle(pi), pi);
-  EXPECT_EQ(wrapped_angle(-pi), pi);
-  EXPECT_EQ(wrapped_angle(0), 0);
-  EXPECT_NEAR(wrapped_angle(pi + 0.25), 0.25 - pi, 1e-12);
-  EXPECT_NEAR(wrapped_angle(-9 * pi - 0.25), pi - 0.25, 1e-12);
 }
 
 // The device turned by the mounting from the vehicle, written with matrices.
