@@ -5,7 +5,6 @@
 namespace lakshya {
 namespace {
 
-constexpr Nanoseconds kLookEvery = 200 * kMillisecond;
 constexpr Nanoseconds kOldest = 10 * kSecond;  // an age above that is a clock that was set
 constexpr int kLeastSide = 16;
 constexpr int kMostSide = 4096;
@@ -57,9 +56,7 @@ Status BumblebeeCamera::look_again(Nanoseconds deadline) {
     problem_.set("bumblebee: is not open");
     return Status::disconnected;
   }
-  clock_->sleep_until(std::min(deadline, next_look_));
-  if (clock_->now() < next_look_) return Status::disconnected;
-  next_look_ = clock_->now() + kLookEvery;  // also for one that comes and goes
+  if (!retry_.wait(*clock_, deadline)) return Status::disconnected;
   const BumblebeeSettings& s = settings_;
   running_ = bus_->start({s.guid, s.width, s.height, s.packet_bytes, s.buffers}, problem_) == Status::ok;
   return running_ ? Status::ok : Status::disconnected;

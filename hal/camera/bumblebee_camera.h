@@ -8,6 +8,7 @@
 #include "hal/camera/bumblebee.h"
 #include "hal/camera/eye_check.h"
 #include "hal/camera/iidc_camera.h"
+#include "hal/retry.h"
 
 namespace lakshya {
 
@@ -54,7 +55,7 @@ class BumblebeeCamera final : public StereoCamera {
   EyeCheck eyes_;
   bool wanted_ = false;  // opened, and not closed
   bool running_ = false;
-  Nanoseconds next_look_ = 0;
+  Retry retry_;
   IidcFrame raw_;
   std::uint64_t sequence_ = 0;
   std::vector<std::uint8_t> memory_;  // two mosaics, then two grey images

@@ -8,7 +8,6 @@
 namespace lakshya {
 namespace {
 
-constexpr Nanoseconds kLookEvery = 200 * kMillisecond;
 constexpr int kMostPartners = 8;  // frames looked at for one pair, after the first two
 constexpr int kMostWidth = kV4l2MostSide / 2;
 constexpr double kMostFps = 1000;
@@ -108,9 +107,7 @@ Status V4l2Camera::look_again(Nanoseconds deadline) {
     problem_.set("%s: is not open", settings_.device.c_str());
     return Status::disconnected;
   }
-  clock_->sleep_until(std::min(deadline, next_look_));
-  if (clock_->now() < next_look_) return Status::disconnected;
-  next_look_ = clock_->now() + kLookEvery;  // also for one that comes and goes
+  if (!retry_.wait(*clock_, deadline)) return Status::disconnected;
   return open_nodes() == Status::ok ? Status::ok : Status::disconnected;
 }
 

@@ -15,6 +15,7 @@
 #include "hal/camera.h"
 #include "hal/camera/eye_check.h"
 #include "hal/camera/v4l2_node.h"
+#include "hal/retry.h"
 
 namespace lakshya {
 
@@ -77,7 +78,7 @@ class V4l2Camera final : public StereoCamera {
   std::array<V4l2Node::Filled, 2> filled_;
   std::array<std::vector<std::uint8_t>, 2> memory_;  // grey pictures of the formats that are not grey
   bool wanted_ = false;                              // opened, and not closed
-  Nanoseconds next_look_ = 0;
+  Retry retry_;
   mutable std::array<Counter, 13> shown_{};
 };
 

@@ -13,7 +13,6 @@
 namespace lakshya {
 namespace {
 
-constexpr Nanoseconds kBetweenLooks = 200 * kMillisecond;
 constexpr int kMostDevices = 32;
 constexpr double kGravity = 9.80665;  // m/s^2
 constexpr std::size_t kLongestRoot = 128;
@@ -148,7 +147,7 @@ Status IioCompass::lose_or_count(Status status) {
   ++counters_[status == Status::disconnected ? kDisconnections : kBadReadings].value;
   if (status == Status::disconnected) {
     forget();
-    next_look_ = clock_->now() + kBetweenLooks;
+    retry_.lost(clock_->now());
   }
   return status;
 }
@@ -177,10 +176,7 @@ Status IioCompass::measure(FieldSample& sample) {
 }
 
 bool IioCompass::look_again(Nanoseconds deadline) {
-  clock_->sleep_until(std::min(deadline, next_look_));
-  const Nanoseconds now = clock_->now();
-  if (now < next_look_) return false;
-  next_look_ = now + kBetweenLooks;
+  if (!retry_.wait(*clock_, deadline)) return false;
   if (find() == Status::ok) return true;
   forget();
   return false;

@@ -15,6 +15,7 @@
 #include "hal/compass/iio_triad.h"
 #include "hal/compass/matrix3.h"
 #include "hal/linux/system_calls.h"
+#include "hal/retry.h"
 
 namespace lakshya {
 
@@ -84,7 +85,7 @@ class IioCompass final : public Compass {
   IioTriad accelerometer_;
   bool is_open_ = false;
   Nanoseconds next_sample_ = 0;
-  Nanoseconds next_look_ = 0;
+  Retry retry_;
   Counter counters_[4] = {{"bad_readings"}, {"bad_fields"}, {"timeouts"}, {"disconnections"}};
 };
 

@@ -11,7 +11,6 @@ namespace lakshya {
 namespace {
 
 constexpr Nanoseconds kBetweenCharacters = 100 * kMillisecond;
-constexpr Nanoseconds kBetweenLooks = 200 * kMillisecond;
 constexpr int kHeadingPitchRoll = 1 + 2 + 4;
 // "$C359.9P-89.9R-179.9*hh" and its end: what the rate and the line's speed must have room for.
 constexpr int kLongestAskedFor = 25;
@@ -200,10 +199,7 @@ void Os5000::take_line(std::string_view line) {
 }
 
 bool Os5000::look_again(Nanoseconds deadline) {
-  clock_->sleep_until(std::min(deadline, next_look_));
-  const Nanoseconds now = clock_->now();
-  if (now < next_look_) return false;
-  next_look_ = now + kBetweenLooks;
+  if (!retry_.wait(*clock_, deadline)) return false;
   if (port_->open() != Status::ok) {
     problem_.set("OS5000: %s", port_->problem());
     return false;
@@ -216,7 +212,7 @@ bool Os5000::look_again(Nanoseconds deadline) {
 Status Os5000::lose() {
   problem_.set("OS5000: %s", port_->problem());
   port_->close();
-  next_look_ = clock_->now() + kBetweenLooks;
+  retry_.lost(clock_->now());
   ++counters_[kDisconnections].value;
   return has_newest_ ? Status::ok : Status::disconnected;
 }

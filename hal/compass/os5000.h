@@ -15,6 +15,7 @@
 #include "hal/clock.h"
 #include "hal/compass.h"
 #include "hal/compass/os5000_sentence.h"
+#include "hal/retry.h"
 #include "hal/serial_port.h"
 
 namespace lakshya {
@@ -74,7 +75,7 @@ class Os5000 final : public Compass {
   std::size_t commands_size_ = 0;
   std::size_t sent_ = 0;
   Nanoseconds next_character_ = 0;
-  Nanoseconds next_look_ = 0;
+  Retry retry_;
 
   std::array<std::uint8_t, 256> buffer_{};
   NmeaLines lines_;
