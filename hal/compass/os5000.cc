@@ -15,8 +15,11 @@ constexpr int kHeadingPitchRoll = 1 + 2 + 4;
 // "$C359.9P-89.9R-179.9*hh" and its end: what the rate and the line's speed must have room for.
 constexpr int kLongestAskedFor = 25;
 constexpr int kBitsPerByte = 10;
-// More than the kernel keeps of a serial line (4096 bytes): reads of what is waiting, in one call.
+// Reads of what is waiting, in one call: 8192 bytes, more than comes in kLongestPause (40 sentences of 82 bytes a second).
 constexpr int kMostDrains = 32;
+// A terminal that is full keeps the oldest bytes, and how many it keeps (4096, and what lies before them in the kernel) is
+// not to be relied on. For so long it holds everything, so that the newest sentence is a new one.
+constexpr Nanoseconds kLongestPause = kSecond;
 
 enum { kBadChecksums, kBadSentences, kTimeouts, kDisconnections };
 
@@ -96,6 +99,7 @@ Status Os5000::open() {
     return status;
   }
   is_open_ = true;
+  listened_ = clock_->now();
   return Status::ok;
 }
 
@@ -133,7 +137,12 @@ Status Os5000::read(Nanoseconds deadline, HeadingSample& sample) {
     return Status::disconnected;
   }
   if (!port_->is_open() && !look_again(deadline)) return Status::disconnected;
+  if (clock_->now() - listened_ > kLongestPause) {
+    port_->discard_input();
+    lines_.clear();
+  }
   const Status status = receive(deadline);
+  listened_ = clock_->now();
   if (status == Status::ok) sample = newest_;
   return status;
 }

@@ -47,8 +47,11 @@ class Os5000 final : public Compass {
 
   // bad_data: until `deadline` only damaged sentences came. The time is when the sentence's first byte began to be sent, if
   // the bytes that one read of the port gives came one close after the other; what the device does before that (its filter)
-  // is not known. A sentence that waited in the port is therefore stamped up to one period too late: call often. Time never
-  // steps back.
+  // is not known. A sentence that waited in the port is stamped as if it had come just now, too late by at most one period, or
+  // by the time since the call before where that is less. Time never steps back.
+  //
+  // After more than 1 s without a call what waits in the port is forgotten, because nobody knows how old it is: the call then
+  // waits for a new sentence, and is a timeout where none comes before `deadline`.
   //
   // A port that has gone is looked for again by the next calls, every 200 ms; the commands are then sent while sentences come
   // in already.
@@ -70,6 +73,7 @@ class Os5000 final : public Compass {
   SerialPort* port_;
   Clock* clock_;
   bool is_open_ = false;
+  Nanoseconds listened_ = 0;  // when the last call ended
 
   std::array<char, 16> commands_{};
   std::size_t commands_size_ = 0;

@@ -205,6 +205,32 @@ TEST_F(Os5000Test, WhatIsWaitingIsTakenThoughTheDeadlineHasPassed) {
   EXPECT_EQ(clock_.now(), now);
 }
 
+// A terminal that is full keeps what came first.
+TEST_F(Os5000Test, AfterALongPauseWhatWaitedIsForgotten) {
+  open(compass_);
+  port_.say(line("C1.0") + line("C2.0") + "$C3");
+  clock_.advance(30 * kSecond);
+  EXPECT_EQ(compass_.read(clock_.now(), sample_), Status::timeout);
+  port_.say("59.0*00\r\n" + line("C4.0"), 80 * kMillisecond);
+  const Nanoseconds came = in_ms(80);
+  ASSERT_EQ(read(compass_, 200), Status::ok) << compass_.problem();
+  EXPECT_NEAR(sample_.yaw, 86 * kDegree, 1e-12);
+  EXPECT_GT(sample_.time, came - 20 * kMillisecond);
+  EXPECT_EQ(count(compass_, "bad_checksums"), 0U) << "joined to a half from before the pause";
+}
+
+TEST_F(Os5000Test, APauseOfASecondForgetsNothingNorDoesALongWait) {
+  open(compass_);
+  port_.say(line("C1.0"));
+  clock_.advance(kSecond);
+  ASSERT_EQ(compass_.read(clock_.now(), sample_), Status::ok);
+  EXPECT_NEAR(sample_.yaw, 89 * kDegree, 1e-12);
+  EXPECT_EQ(read(compass_, 3000), Status::timeout);
+  port_.say(line("C2.0"));
+  ASSERT_EQ(compass_.read(clock_.now(), sample_), Status::ok) << "the port was listened to all the time";
+  EXPECT_NEAR(sample_.yaw, 88 * kDegree, 1e-12);
+}
+
 TEST_F(Os5000Test, SilenceIsATimeoutAtTheDeadline) {
   open(compass_);
   const Nanoseconds deadline = in_ms(70);
