@@ -3,6 +3,7 @@
 #ifdef LAKSHYA_HAVE_DC1394
 
 #include <dc1394/dc1394.h>
+#include <dc1394/log.h>
 
 #include <ctime>
 
@@ -13,7 +14,11 @@ constexpr dc1394video_mode_t kMode = DC1394_VIDEO_MODE_FORMAT7_3;
 
 class Dc1394Camera final : public IidcCamera {
  public:
-  Dc1394Camera() = default;
+  // The library prints what its functions answer anyway, also while a camera is only looked for again.
+  Dc1394Camera() {
+    (void)dc1394_log_register_handler(DC1394_LOG_ERROR, nullptr, nullptr);
+    (void)dc1394_log_register_handler(DC1394_LOG_WARNING, nullptr, nullptr);
+  }
   ~Dc1394Camera() override { stop_all(); }
   Dc1394Camera(const Dc1394Camera&) = delete;
   Dc1394Camera& operator=(const Dc1394Camera&) = delete;
