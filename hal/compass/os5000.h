@@ -39,8 +39,9 @@ class Os5000 final : public Compass {
   Os5000(const Os5000&) = delete;
   Os5000& operator=(const Os5000&) = delete;
 
-  // Sends the commands, which takes 0.8 or 0.9 s (8 or 9 characters), then waits for a sentence for at most 1 s and two periods. timeout: none came, or the port
-  // takes no bytes; bad_data: only damaged ones came, or ones without heading; what SerialPort::open() says.
+  // Sends the commands, which takes 0.8 or 0.9 s (8 or 9 characters), then waits for a sentence for at most 1 s and two
+  // periods. timeout: none came, or the port takes no bytes; bad_data: only damaged ones came, or ones without heading; what
+  // SerialPort::open() says.
   Status open() override;
   void close() override;
   std::span<const Counter> counters() const override { return counters_; }
