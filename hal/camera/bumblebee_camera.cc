@@ -69,7 +69,9 @@ Status BumblebeeCamera::newest(Nanoseconds deadline) {
     Status status = Status::ok;
     while (status == Status::ok && found < 2 * settings_.buffers) {
       status = bus_->fetch(raw_);
-      if (status == Status::ok) ++found;
+      if (status != Status::ok) break;
+      fetched_ = clock_->now();
+      ++found;
     }
     if (status != Status::ok && status != Status::timeout) {
       ++disconnections_.value;
@@ -118,7 +120,7 @@ Status BumblebeeCamera::make_views(StereoFrame& frame) {
   const int first = eyes_.swapped() ? 1 - left : left;
   const bool known = raw_.age >= 0 && raw_.age <= kOldest;
   if (!known) ++unstamped_.value;
-  const Nanoseconds time = clock_->now() - (known ? raw_.age : 0);
+  const Nanoseconds time = fetched_ - (known ? raw_.age : 0);
   frame = {eyes[first], eyes[1 - first], time, time, sequence_};
   return Status::ok;
 }

@@ -18,10 +18,9 @@ struct BumblebeeSettings {
   int height = 480;
   BayerPattern pattern = BayerPattern::none;  // of a colour head: what its data sheet says
   bool first_is_left = false;  // the first byte of a pixel is the left eye's: not to be believed, see check_eyes
-  bool check_eyes =
-      true;  // the first good pairs are looked at, and a wrong order is corrected (eye_check.h; 20 ms each)
-  int packet_bytes = 0;  // per bus cycle, which sets the frame rate; 0: the camera's recommendation
-  int buffers = 4;       // 2..32
+  bool check_eyes = true;      // the first good pairs are looked at, and a wrong order is corrected (eye_check.h)
+  int packet_bytes = 0;        // per bus cycle, which sets the frame rate; 0: the camera's recommendation
+  int buffers = 4;             // 2..32
 };
 
 class BumblebeeCamera final : public StereoCamera {
@@ -40,8 +39,8 @@ class BumblebeeCamera final : public StereoCamera {
   int height() const override { return settings_.height; }
 
   // As StereoCamera::capture(). A camera that has gone is looked for every 200 ms, by calls of this; they wait until it is time
-  // to look. Setting it up again may take longer than the deadline. After a pause in which all buffers filled, the first pair is
-  // as old as its time says.
+  // to look. Setting it up again may take longer than the deadline, and so may the first pairs, by a look at the eyes each. After
+  // a pause in which all buffers filled, the first pair is as old as its time says.
   Status capture(Nanoseconds deadline, StereoFrame& frame) override;
 
  private:
@@ -57,6 +56,7 @@ class BumblebeeCamera final : public StereoCamera {
   bool running_ = false;
   Retry retry_;
   IidcFrame raw_;
+  Nanoseconds fetched_ = 0;  // when raw_ was, which is when its age was taken
   std::uint64_t sequence_ = 0;
   std::vector<std::uint8_t> memory_;  // two mosaics, then two grey images
   Counter disconnections_{"disconnections"};

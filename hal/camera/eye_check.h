@@ -19,7 +19,8 @@ class EyeCheck {
   void open(bool wanted);
 
   // Looks at the pair as the settings assign it, at most at kMostLooks of them and until one tells. Then swapped() says
-  // whether it is the other way round; `problem` names what was corrected, or that nothing could be told.
+  // whether it is the other way round; `problem` names what was corrected, or that nothing could be told. A look takes as long
+  // as EyeOrderFinder::look() says, and knows no deadline: it comes on top of that of the capture.
   void look(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, const char* place,
             Problem& problem);
 

@@ -42,8 +42,8 @@ inline constexpr int kEyeSide = 320;  // px, longer side of a reduced image, at 
 class EyeOrderFinder {
  public:
   // Raw or rectified, both of one size, rows up to 10 reduced pixels apart (a reduced pixel: ceil(longer side / kEyeSide)
-  // px). Takes some 50 ms: for the start, not for every frame. Sizes that differ or have a side under 32 reduced pixels,
-  // and images with too little to see, are unsure.
+  // px). Takes 20 to 50 ms on a desktop's core, longer on a small board's: for the start, not for every frame. Sizes that
+  // differ or have a side under 32 reduced pixels, and images with too little to see, are unsure.
   EyeVotes look(ImageView<const std::uint8_t> first, ImageView<const std::uint8_t> second);
 
  private:

@@ -23,16 +23,15 @@ struct V4l2Settings {
   std::string device = "/dev/video0";  // better a name that stays: /dev/v4l/by-id/...
   std::string right_device;            // empty: `device` gives both eyes side by side, left half and right half
   V4l2Format format = V4l2Format::yuyv;
-  int width = 640;    // px of one eye, 16..8192; side by side and yuyv: even
-  int height = 480;   // px, 16..16384
-  double fps = 30;    // frames a second, 0 (as the camera is) or 1..1000
-  bool swap = false;  // the left half, or `device`, is the right eye
-  bool check_eyes =
-      true;  // the first good pairs are looked at, and a wrong order is corrected (eye_check.h; 20 ms each)
-  double skew_ms = 5;    // two devices: times of a pair differ by at most this, milliseconds, 0..1000
-  int exposure_us = -1;  // microseconds, in steps of 100, the same for both eyes; negative: automatic
-  int gain = -1;         // the driver's unit, the same for both eyes; negative: automatic
-  int buffers = 4;       // 4..16, of each device
+  int width = 640;         // px of one eye, 16..8192; side by side and yuyv: even
+  int height = 480;        // px, 16..16384
+  double fps = 30;         // frames a second, 0 (as the camera is) or 1..1000
+  bool swap = false;       // the left half, or `device`, is the right eye
+  bool check_eyes = true;  // the first good pairs are looked at, and a wrong order is corrected (eye_check.h)
+  double skew_ms = 5;      // two devices: times of a pair differ by at most this, milliseconds, 0..1000
+  int exposure_us = -1;    // microseconds, in steps of 100, the same for both eyes; negative: automatic
+  int gain = -1;           // the driver's unit, the same for both eyes; negative: automatic
+  int buffers = 4;         // 4..16, of each device
 };
 
 class V4l2Camera final : public StereoCamera {
@@ -54,7 +53,8 @@ class V4l2Camera final : public StereoCamera {
   int height() const override { return settings_.height; }
 
   // As StereoCamera::capture(). A camera that has gone is looked for every 200 ms, by calls of this; they wait until it is time
-  // to look. Calls into the kernel's driver while it is set up again may take longer than the deadline.
+  // to look. Calls into the kernel's driver while it is set up again may take longer than the deadline, and so may the first
+  // pairs, by a look at the eyes each.
   Status capture(Nanoseconds deadline, StereoFrame& frame) override;
 
  private:

@@ -1,5 +1,6 @@
 #include "hal/camera/bumblebee_camera.h"
 
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -112,6 +113,16 @@ TEST_F(BumblebeeCameraTest, TheNewestIsTaken) {
   EXPECT_EQ(count("dropped_frames"), 2U);
 }
 
+// A frame's age holds when it is fetched; what is done with it afterwards takes time.
+TEST_F(BumblebeeCameraTest, TheTimeIsNotLaterByWhatComesAfterTheFetch) {
+  add(1);
+  bus_.fetch_takes = 7 * kMillisecond;
+  open(settings());
+  ASSERT_EQ(capture(), Status::ok) << camera_->problem();
+  EXPECT_EQ(frame_.left_time, start_ + kPeriod + 7 * kMillisecond - 3 * kMillisecond);
+  EXPECT_GT(clock_.now(), start_ + kPeriod + 7 * kMillisecond) << "nothing took time afterwards";
+}
+
 TEST_F(BumblebeeCameraTest, DamagedFrames) {
   add(5);
   bus_.frames[0].frame.torn = true;
@@ -208,6 +219,18 @@ TEST(Dc1394Camera, WithoutABusThereIsNoCamera) {
   EXPECT_EQ(bus->fd(), -1);
   IidcFrame frame;
   EXPECT_EQ(bus->fetch(frame), Status::disconnected);
+}
+
+TEST(Dc1394Camera, TheLibraryPrintsNothing) {
+  using Log = void (*)(const char* format, ...);
+  const auto bus = make_dc1394_camera();
+  for (const char* name : {"dc1394_log_error", "dc1394_log_warning"}) {
+    const auto log = reinterpret_cast<Log>(dlsym(RTLD_DEFAULT, name));
+    if (log == nullptr) GTEST_SKIP() << "built without libdc1394";
+    testing::internal::CaptureStderr();
+    log("printed by %s\n", name);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  }
 }
 
 }  // namespace

@@ -45,7 +45,9 @@ class FakeIidc final : public IidcCamera {
   int fd() const override { return running ? kFd : -1; }
   Status fetch(IidcFrame& frame) override {
     if (!running || gone()) return Status::disconnected;
-    if (next_ >= frames.size() || frames[next_].time > clock_->now()) return Status::timeout;
+    const bool waits = next_ < frames.size() && frames[next_].time <= clock_->now();
+    clock_->advance(fetch_takes);
+    if (!waits) return Status::timeout;
     frame = frames[next_++].frame;
     return Status::ok;
   }
@@ -55,6 +57,7 @@ class FakeIidc final : public IidcCamera {
   Nanoseconds plugged_at = INT64_MAX;  // again
   Status answer = Status::ok;
   bool always_ready = false;
+  Nanoseconds fetch_takes = 0;  // a frame's age is as of its end
   IidcRequest request;
   bool running = false;
   int started = 0;
