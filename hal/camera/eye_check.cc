@@ -3,8 +3,9 @@
 namespace lakshya {
 
 void EyeCheck::open(bool wanted) {
-  looks_left_ = wanted ? kMostLooks : 0;
+  wanted_ = wanted;
   swapped_ = false;
+  again();
   if (wanted && !finder_) finder_ = std::make_unique<EyeOrderFinder>();
 }
 
@@ -15,13 +16,13 @@ void EyeCheck::look(ImageView<const std::uint8_t> left, ImageView<const std::uin
   const EyeVotes votes = finder_->look(left, right);
   if (votes.order == EyeOrder::unsure) {
     ++counters_.unsure.value;
-    problem.set("%s: which eye is the left one cannot be told (votes %d : %d); as the settings say", place,
-                votes.left_first, votes.right_first);
+    problem.set("%s: which eye is the left one cannot be told (votes %d : %d); %s", place, votes.left_first,
+                votes.right_first, swapped_ ? "as it was before" : "as the settings say");
     return;
   }
   looks_left_ = 0;
-  if (votes.order == EyeOrder::left_first) return;
-  swapped_ = true;
+  swapped_ = votes.order == EyeOrder::right_first;
+  if (!swapped_) return;
   ++counters_.corrected.value;
   problem.set("%s: left and right are swapped (votes %d : %d), corrected; change the setting", place,
               votes.left_first, votes.right_first);

@@ -18,6 +18,10 @@ class EyeCheck {
   // Starts anew; takes its memory when `wanted`, else never looks.
   void open(bool wanted);
 
+  // The cameras may have changed places: looks once more, if it was wanted. What was found holds until a pair tells otherwise.
+  // Nothing is allocated.
+  void again() { looks_left_ = wanted_ ? kMostLooks : 0; }
+
   // Looks at the pair as the settings assign it, at most at kMostLooks of them and until one tells. Then swapped() says
   // whether it is the other way round; `problem` names what was corrected, or that nothing could be told. A look takes as long
   // as EyeOrderFinder::look() says, and knows no deadline: it comes on top of that of the capture.
@@ -31,6 +35,7 @@ class EyeCheck {
 
  private:
   std::unique_ptr<EyeOrderFinder> finder_;
+  bool wanted_ = false;
   int looks_left_ = 0;
   bool swapped_ = false;
   Counters counters_;

@@ -86,7 +86,11 @@ Status V4l2Camera::open_nodes() {
   Status status = nodes_[0].open();
   if (status == Status::ok && two()) status = nodes_[1].open();
   if (status != Status::ok) close_nodes();
-  return status;
+  if (status != Status::ok || !two()) return status;
+  const int unequal =
+      compare_lights(nodes_[0].light(), nodes_[0].path(), nodes_[1].light(), nodes_[1].path(), problem_);
+  node_counters_.not_taken.value += static_cast<std::uint64_t>(unequal);
+  return Status::ok;
 }
 
 void V4l2Camera::close_nodes() {
@@ -108,7 +112,9 @@ Status V4l2Camera::look_again(Nanoseconds deadline) {
     return Status::disconnected;
   }
   if (!retry_.wait(*clock_, deadline)) return Status::disconnected;
-  return open_nodes() == Status::ok ? Status::ok : Status::disconnected;
+  if (open_nodes() != Status::ok) return Status::disconnected;
+  if (two()) eyes_.again();  // the kernel numbers its nodes in the order in which they come
+  return Status::ok;
 }
 
 Status V4l2Camera::pair(Nanoseconds deadline) {

@@ -29,9 +29,10 @@ struct V4l2Settings {
   bool swap = false;       // the left half, or `device`, is the right eye
   bool check_eyes = true;  // the first good pairs are looked at, and a wrong order is corrected (eye_check.h)
   double skew_ms = 5;      // two devices: times of a pair differ by at most this, milliseconds, 0..1000
-  int exposure_us = -1;    // microseconds, in steps of 100, the same for both eyes; negative: automatic
-  int gain = -1;           // the driver's unit, the same for both eyes; negative: automatic
-  int buffers = 4;         // 4..16, of each device
+  // The same for both eyes; negative: automatic. Two devices want both fixed: two automatics do not know of each other.
+  int exposure_us = -1;  // microseconds, in steps of 100
+  int gain = -1;         // the driver's unit
+  int buffers = 4;       // 4..16, of each device
 };
 
 class V4l2Camera final : public StereoCamera {
@@ -44,7 +45,8 @@ class V4l2Camera final : public StereoCamera {
 
   // As Device::open(). unsupported: not exactly that format and size (problem() says what there is), or no camera at all;
   // refused: another program has it, or the bus has no room. Frame rate, exposure or gain that are not taken are counted
-  // (settings_not_taken) and named by problem(), and the camera is open all the same.
+  // (settings_not_taken) and named by problem(), and the camera is open all the same; so are exposure and gain that two devices
+  // do not have in common: automatic in one of them, or not of one value.
   Status open() override;
   void close() override;
   std::span<const Counter> counters() const override;
@@ -54,7 +56,7 @@ class V4l2Camera final : public StereoCamera {
 
   // As StereoCamera::capture(). A camera that has gone is looked for every 200 ms, by calls of this; they wait until it is time
   // to look. Calls into the kernel's driver while it is set up again may take longer than the deadline, and so may the first
-  // pairs, by a look at the eyes each.
+  // pairs, by a look at the eyes each. Two devices that come back may have changed names: their eyes are looked at again.
   Status capture(Nanoseconds deadline, StereoFrame& frame) override;
 
  private:

@@ -33,6 +33,13 @@ int set_control(SystemCalls& calls, int fd, std::uint32_t id, int& value) {
   return std::min(error, 0);
 }
 
+// -1 where there is none. Drivers of either kind understand this.
+int control_of(SystemCalls& calls, int fd, std::uint32_t id) {
+  v4l2_control control{};
+  control.id = id;
+  return calls.ioctl(fd, VIDIOC_G_CTRL, &control) >= 0 ? control.value : -1;
+}
+
 bool takes(SystemCalls& calls, int fd, std::uint32_t id, int value) {
   int taken = value;
   return set_control(calls, fd, id, taken) == 0 && taken == value;
@@ -120,6 +127,40 @@ int set_controls(SystemCalls& calls, int fd, const char* place, const V4l2Contro
   setter.exposure(wanted.exposure_us);
   setter.gain(wanted.gain);
   return setter.not_taken();
+}
+
+V4l2Light read_light(SystemCalls& calls, int fd) {
+  const int mode = control_of(calls, fd, V4L2_CID_EXPOSURE_AUTO);
+  return {.automatic_exposure = mode >= 0 && mode != V4L2_EXPOSURE_MANUAL,
+          .exposure = control_of(calls, fd, V4L2_CID_EXPOSURE_ABSOLUTE),
+          .automatic_gain = control_of(calls, fd, V4L2_CID_AUTOGAIN) > 0,
+          .gain = control_of(calls, fd, V4L2_CID_GAIN)};
+}
+
+int compare_lights(const V4l2Light& first, const char* first_place, const V4l2Light& second,
+                   const char* second_place, Problem& problem) {
+  const struct {
+    const char* name;
+    bool automatic;
+    int first;
+    int second;
+  } kinds[] = {
+      {"exposure", first.automatic_exposure || second.automatic_exposure, first.exposure, second.exposure},
+      {"gain", first.automatic_gain || second.automatic_gain, first.gain, second.gain},
+  };
+  int unequal = 0;
+  for (const auto& kind : kinds) {
+    const bool differs = kind.first >= 0 && kind.second >= 0 && kind.first != kind.second;
+    if (!kind.automatic && !differs) continue;
+    ++unequal;
+    if (kind.automatic) {
+      problem.set("%s, %s: automatic %s is each camera's own; two want a fixed one", first_place, second_place,
+                  kind.name);
+    } else {
+      problem.set("%s, %s: %s is %d and %d", first_place, second_place, kind.name, kind.first, kind.second);
+    }
+  }
+  return unequal;
 }
 
 }  // namespace lakshya

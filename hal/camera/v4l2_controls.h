@@ -18,4 +18,18 @@ struct V4l2Controls {
 int set_controls(SystemCalls& calls, int fd, const char* place, const V4l2Controls& wanted, double& fps,
                  Problem& problem);
 
+// What makes one camera's picture brighter than another's, as the node says it is; -1: it does not say.
+struct V4l2Light {
+  bool automatic_exposure = false;
+  int exposure = -1;  // 100 us
+  bool automatic_gain = false;
+  int gain = -1;
+};
+V4l2Light read_light(SystemCalls& calls, int fd);
+
+// How many of the two, exposure and gain, are not the same: automatic in one of two nodes, or of different values. problem() then
+// names the last.
+int compare_lights(const V4l2Light& first, const char* first_place, const V4l2Light& second,
+                   const char* second_place, Problem& problem);
+
 }  // namespace lakshya

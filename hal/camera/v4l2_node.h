@@ -61,6 +61,7 @@ class V4l2Node {
   bool is_open() const { return fd_ >= 0; }
   const V4l2Picture& picture() const { return picture_; }
   const char* path() const { return settings_.path.c_str(); }
+  V4l2Light light() const { return read_light(*calls_, fd_); }
 
   // Gives back the last frame, then the newest good one that waits, or the first to come until `deadline`. Where all buffers
   // were full, the camera had none to fill for a while and what waits is old: then a fresh one is waited for, two frame

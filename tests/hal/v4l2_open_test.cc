@@ -152,6 +152,45 @@ TEST_F(V4l2OpenTest, ExposureAndGainAreSetOnBothEyes) {
   }
 }
 
+TEST_F(V4l2OpenTest, TwoDevicesWithLightOfTheirOwnAreCountedAndNamed) {
+  V4l2Settings s = two_devices();
+  ASSERT_EQ(open(s), Status::ok);
+  EXPECT_EQ(not_taken_, 0U) << "nothing automatic there: " << problem_;
+  for (test::FakeV4l2Node* node : {&left(), &right()}) {
+    node->controls = {{V4L2_CID_EXPOSURE_AUTO, {0, 3, 1}},
+                      {V4L2_CID_EXPOSURE_ABSOLUTE, {1, 1000, 5}},
+                      {V4L2_CID_AUTOGAIN, {0, 1, 0}},
+                      {V4L2_CID_GAIN, {0, 64, 3}}};
+  }
+  ASSERT_EQ(open(s), Status::ok);
+  EXPECT_EQ(not_taken_, 2U);
+  EXPECT_TRUE(says("/dev/video0, /dev/video2: automatic gain is each camera's own")) << problem_;
+  s.gain = 17;
+  ASSERT_EQ(open(s), Status::ok);
+  EXPECT_EQ(not_taken_, 1U);
+  EXPECT_TRUE(says("automatic exposure")) << problem_;
+  s.exposure_us = 5000;
+  ASSERT_EQ(open(s), Status::ok);
+  EXPECT_EQ(not_taken_, 0U) << problem_;
+
+  // One camera is not asked: its automatics see both eyes.
+  left().modes = {{}};
+  ASSERT_EQ(open(settings()), Status::ok);
+  EXPECT_EQ(not_taken_, 0U) << problem_;
+}
+
+TEST_F(V4l2OpenTest, TwoDevicesWithFixedGainsThatDiffer) {
+  V4l2Settings s = two_devices();
+  left().controls = {{V4L2_CID_GAIN, {0, 64, 3}}};  // no automatic to be switched on
+  right().controls = {{V4L2_CID_GAIN, {0, 64, 20}}};
+  ASSERT_EQ(open(s), Status::ok);
+  EXPECT_EQ(not_taken_, 1U);
+  EXPECT_TRUE(says("/dev/video0, /dev/video2: gain is 3 and 20")) << problem_;
+  right().controls = {};
+  ASSERT_EQ(open(s), Status::ok);
+  EXPECT_EQ(not_taken_, 0U) << "nobody knows: " << problem_;
+}
+
 TEST_F(V4l2OpenTest, ControlsThatAreNotTakenAreCountedAndNamed) {
   EXPECT_EQ(open_with([](V4l2Settings& s) { s.exposure_us = 5000; }), Status::ok);
   EXPECT_EQ(not_taken_, 1U);

@@ -337,6 +337,13 @@ inline int FakeV4l2::ioctl(int fd, unsigned long request, void* argument) {
       return state->node.sets_rate ? 0 : -ENOTTY;
     case VIDIOC_S_PARM:
       return set_rate(*state, *static_cast<v4l2_streamparm*>(argument));
+    case VIDIOC_G_CTRL: {
+      auto& control = *static_cast<v4l2_control*>(argument);
+      const auto found = state->node.controls.find(control.id);
+      if (found == state->node.controls.end()) return -EINVAL;
+      control.value = found->second.value;
+      return 0;
+    }
     case VIDIOC_S_CTRL: {
       auto& control = *static_cast<v4l2_control*>(argument);
       int value = control.value;
