@@ -90,7 +90,8 @@ Status check_settings(const QuickSilverSettings& settings, Problem& problem) {
   }
   if (settings.left.address == settings.right.address)
     return refuse(problem, "address of both drives", settings.left.address);
-  if (!(settings.v_unsupervised_mps > 0)) return refuse(problem, "v_unsupervised_mps", settings.v_unsupervised_mps);
+  if (!(settings.v_unsupervised_mps >= 0))
+    return refuse(problem, "v_unsupervised_mps", settings.v_unsupervised_mps);
   const Status registers_are = check_registers(settings, problem);
   return registers_are != Status::ok ? registers_are : check_times(settings, problem);
 }

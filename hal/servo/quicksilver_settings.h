@@ -24,7 +24,7 @@ struct QuickSilverSettings {
   double max_acceleration_mps2 = 0.5;  // of a wheel's rim, above 0; the drives keep to it, also when they stop
 
   bool supervised = true;           // by the resident program; false: VMI, and v_unsupervised is the limit
-  double v_unsupervised_mps = 0.3;  // above 0
+  double v_unsupervised_mps = 0.3;  // not below 0; 0: without the program they only stand
   // User registers of the resident program, 11 to 198, all different. The one before velocity_register holds the
   // acceleration, as the maker's command PVC wants it.
   int velocity_register = 30;

@@ -50,7 +50,11 @@ Status QuickSilver::open() {
 void QuickSilver::close() {
   if (!opened_) return;
   opened_ = false;
-  if (link_.is_open()) (void)stop_both(0, clock_->now() + kCloseTime);
+  const Nanoseconds deadline = clock_->now() + kCloseTime;
+  const Status stopped = link_.is_open() ? stop_both(0, deadline) : Status::disconnected;
+  // Nothing else stops a drive under VMI: a port that has gone may be back.
+  if (stopped == Status::disconnected && !settings_.supervised && link_.open() == Status::ok)
+    (void)stop_both(0, deadline);
   link_.close();
 }
 

@@ -99,7 +99,8 @@ TEST_F(QuickSilverOpenTest, ImpossibleSettingsAreRefused) {
       {"max_speed_mps", [&](auto& s) { s.max_speed_mps = nan; }},
       {"max_acceleration_mps2", [](auto& s) { s.max_acceleration_mps2 = 0; }},
       {"max_acceleration_mps2", [&](auto& s) { s.max_acceleration_mps2 = nan; }},
-      {"v_unsupervised_mps", [](auto& s) { s.v_unsupervised_mps = 0; }},
+      {"v_unsupervised_mps", [](auto& s) { s.v_unsupervised_mps = -0.1; }},
+      {"v_unsupervised_mps", [&](auto& s) { s.v_unsupervised_mps = nan; }},
       {"register", [](auto& s) { s.velocity_register = 11; }},  // the one before is 10
       {"register", [](auto& s) { s.counter_register = 199; }},
       {"register used twice", [](auto& s) { s.heartbeat_register = 29; }},

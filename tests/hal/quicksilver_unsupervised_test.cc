@@ -1,6 +1,8 @@
 // QuickSilver without resident programs: settings that say so, slower speeds, VMI.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -42,6 +44,47 @@ TEST_F(QuickSilverUnsupervisedTest, TheSlowerLimitHolds) {
   QuickSilverSettings settings = unsupervised();
   settings.max_speed_mps = 0.2;
   EXPECT_EQ(QuickSilver(settings, port_, clock_).max_speed_mps(), 0.2);
+}
+
+TEST_F(QuickSilverUnsupervisedTest, WithoutALimitTheWheelsOnlyStand) {
+  QuickSilverSettings settings = unsupervised();
+  settings.v_unsupervised_mps = 0;
+  QuickSilver servo(settings, port_, clock_);
+  ASSERT_EQ(servo.open(), Status::ok) << servo.problem();
+  EXPECT_EQ(servo.max_speed_mps(), 0);
+  EXPECT_EQ(servo.drive({}, in_ms(20)), Status::ok);
+  EXPECT_EQ(servo.drive({.left_mps = 0.01, .right_mps = 0}, in_ms(20)), Status::refused);
+}
+
+TEST_F(QuickSilverUnsupervisedTest, CloseLooksForAPortThatHasGoneAndStops) {
+  const std::vector<std::string> stopped = {"@16 3 0", "@17 3 0"};
+  for (const bool was_noticed : {true, false}) {
+    ASSERT_EQ(vmi_.open(), Status::ok) << vmi_.problem();
+    ASSERT_EQ(vmi_.drive({.left_mps = 0.25, .right_mps = 0.25}, in_ms(20)), Status::ok);
+    port_.unplugged = true;
+    if (was_noticed) {
+      EXPECT_EQ(vmi_.drive({.left_mps = 0.25, .right_mps = 0.25}, in_ms(20)), Status::disconnected);
+    } else {
+      std::size_t count = 0;
+      std::array<std::uint8_t, 1> byte{};
+      EXPECT_EQ(port_.read(byte, in_ms(0), count), Status::disconnected);
+    }
+    port_.unplugged = false;
+    commands_.clear();
+    vmi_.close();
+    EXPECT_EQ(commands_, stopped);
+    EXPECT_FALSE(port_.is_open());
+  }
+}
+
+TEST_F(QuickSilverUnsupervisedTest, CloseDoesNotWaitForAPortThatStaysAway) {
+  ASSERT_EQ(vmi_.open(), Status::ok) << vmi_.problem();
+  port_.unplugged = true;
+  port_.opened = 0;
+  const Nanoseconds begin = clock_.now();
+  vmi_.close();
+  EXPECT_EQ(port_.opened, 1);
+  EXPECT_EQ(clock_.now(), begin);
 }
 
 TEST_F(QuickSilverUnsupervisedTest, ADriveThatRefusesToStopIsHalted) {
