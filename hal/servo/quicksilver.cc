@@ -11,7 +11,7 @@ using quicksilver::CommandText;
 
 namespace {
 
-constexpr Nanoseconds kStopTime = 5 * kMillisecond;  // kept back for the other drive while one is spoken to
+constexpr Nanoseconds kStopTime = 5 * kMillisecond;  // of one drive; kept back for it while the other is spoken to
 constexpr Nanoseconds kDriveTime = 18 * kMillisecond;
 constexpr Nanoseconds kTravelTime = 13 * kMillisecond;
 constexpr Nanoseconds kWatchEvery = kSecond;
@@ -127,7 +127,10 @@ Status QuickSilver::stop_drive(std::size_t drive, Nanoseconds deadline) {
   if (owed && !drives_[drive].told_to_stop) link_.send_blindly(drive, stop_text, deadline);
   drives_[drive].told_to_stop = true;
   const Nanoseconds half = clock_->now() + (deadline - clock_->now()) / 2;
-  const Status status = link_.command(drive, stop_text, half);
+  Status status = link_.command(drive, stop_text, half);
+  // Busy passes, and HLT, which a drive that is busy may take, would end its program until somebody switches it off and on.
+  while (status == Status::refused && link_.was_busy() && clock_->now() + kStopTime <= deadline)
+    status = link_.command(drive, stop_text, deadline);
   if (status == Status::ok || status == Status::disconnected) return status;
   if (status != Status::refused) {
     if (!owed) link_.send_blindly(drive, stop_text, deadline);
@@ -138,6 +141,7 @@ Status QuickSilver::stop_drive(std::size_t drive, Nanoseconds deadline) {
   return link_.command(drive, to(drive, Command::halt, {}), deadline) == Status::ok ? Status::ok : status;
 }
 
+  if (link_.was_busy()) return status;
 // ---- travel
 
 Status QuickSilver::read_travel(Nanoseconds deadline, WheelTravel& travel) {

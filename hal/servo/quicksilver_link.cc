@@ -136,6 +136,7 @@ Status QuickSilverLink::transact(std::size_t drive, const CommandText& text, Nan
     status = ask_once(drive, text, deadline, reply);
     if (status != Status::ok || reply.kind != Reply::Kind::nak) return status;
     counters_->add(QuickSilverCounters::naks);
+    nak_code_ = reply.nak_code;
     problem_->set("drive %d: refused command %d: %s (%d)", addresses_[drive], static_cast<int>(text.command()),
                   quicksilver::nak_name(reply.nak_code), reply.nak_code);
     if (reply.nak_code != quicksilver::kNakBusy || clock_->now() + kBusyPause >= deadline) break;

@@ -67,6 +67,9 @@ class QuickSilverLink {
   // and what is begun could only end in the next debt.
   Status settle_both(Nanoseconds deadline, Nanoseconds needed);
 
+  // Whether the last command that was refused was refused because the drive was busy.
+  bool was_busy() const { return nak_code_ == quicksilver::kNakBusy; }
+
   // Writes and does not wait for the reply, whatever the drive owes.
   void send_blindly(std::size_t drive, const quicksilver::CommandText& text, Nanoseconds deadline);
 
@@ -101,6 +104,7 @@ class QuickSilverLink {
   QuickSilverCounters* counters_;
   Problem* problem_;
   std::array<Debt, 2> debts_{};
+  int nak_code_ = 0;
   quicksilver::LineCollector collector_;
 };
 

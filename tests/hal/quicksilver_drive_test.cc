@@ -165,6 +165,30 @@ TEST_F(QuickSilverDriveTest, ADriveThatWillNotBeStoppedByItsProgramIsHaltedAndSe
   EXPECT_FALSE(was_sent("@16 11 30 268435456"));
 }
 
+// HLT would end its program until somebody switches it off and on.
+TEST_F(QuickSilverDriveTest, ADriveThatIsBusyIsNotHalted) {
+  open_it();
+  int busy = 4;
+  override_answer = [&](const std::string& command) {
+    if (command != "@16 11 30 0" || busy-- <= 0) return false;
+    port_.say(nak(16, 11, 2), kMillisecond);
+    return true;
+  };
+  EXPECT_EQ(servo_.stop(in_ms(40)), Status::ok) << servo_.problem();
+  EXPECT_EQ(count("naks"), 4U);
+  EXPECT_FALSE(was_sent("@16 2"));
+  busy = 1000;
+  const Nanoseconds deadline = in_ms(40);
+  EXPECT_EQ(servo_.stop(deadline), Status::refused);
+  expect_problem("busy");
+  EXPECT_LE(clock_.now(), deadline);
+  EXPECT_FALSE(was_sent("@16 2"));
+  EXPECT_TRUE(was_sent("@17 11 30 0"));
+  busy = 0;
+  EXPECT_EQ(servo_.drive({.left_mps = 0.5, .right_mps = 0.5}, in_ms(20)), Status::ok)
+      << "its program was not ended";
+}
+
 TEST_F(QuickSilverDriveTest, CloseStopsBothAndLeavesThePort) {
   open_it();
   ASSERT_EQ(servo_.drive({.left_mps = 0.5, .right_mps = 0.5}, in_ms(20)), Status::ok);
