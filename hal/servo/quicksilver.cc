@@ -58,7 +58,11 @@ Status QuickSilver::drive(const WheelVelocities& wanted, Nanoseconds deadline) {
   const Nanoseconds left = std::max<Nanoseconds>(deadline - clock_->now(), 0);
   const Nanoseconds velocities_by = deadline - std::min(kStopTime, left / 2);
   const Status settled = link_.settle_both(velocities_by, kDriveTime);
-  if (settled != Status::ok) return stop_after(settled, 0, deadline);
+  if (settled != Status::ok) {
+    // Both told, and no time left: one more command could only end in the next debt, and so for ever.
+    const bool both_told = drives_[0].told_to_stop && drives_[1].told_to_stop;
+    return both_told ? settled : stop_after(settled, 0, deadline);
+  }
   for (std::size_t d = 0; d < drives_.size(); ++d) {
     const Status status = set_velocity(d, speeds[d], velocities_by);
     if (status != Status::ok) return stop_after(status, 1 - d, deadline);

@@ -41,7 +41,7 @@ Status QuickSilverLink::open() {
 void QuickSilverLink::owe(std::size_t drive) {
   if (!owes_reply(drive)) debts_[drive] = {};
   ++debts_[drive].replies;
-  debts_[drive].until = clock_->now() + times_.quiet;
+  debts_[drive].until = clock_->now() + times_.answer + times_.quiet;
 }
 
 Status QuickSilverLink::lost() {

@@ -1,8 +1,8 @@
 // Two QuickSilver drives on one serial line: one command at a time, and its reply.
 //
 // A reply says who answers but, when it is a plain "done", not what. So that a late reply to a command that was given up is
-// not taken for the next one's, a drive that owes a reply is asked nothing new until the reply has come or `quiet` has
-// passed since the command. A drive that answers later than that can be misunderstood.
+// not taken for the next one's, a drive that owes a reply is asked nothing new until the reply has come, or `quiet` has
+// passed since the time for the answer was over. A drive that answers later than that can be misunderstood.
 #pragma once
 
 #include <array>
@@ -43,7 +43,7 @@ class QuickSilverLink {
  public:
   struct Times {
     Nanoseconds answer;  // is waited for at most, from the command on
-    Nanoseconds quiet;
+    Nanoseconds quiet;   // after that
   };
 
   // Enough for any one command and its reply at 57600 baud.

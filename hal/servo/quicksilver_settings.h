@@ -33,8 +33,8 @@ struct QuickSilverSettings {
   int signature_register = 33;
   double watchdog_s = 0.2;  // after which the program zeroes the velocity; the program's own number, 0.05 to 1
 
-  double answer_timeout_s = 0.02;  // for one reply, 0.005 to 0.5; an adapter that holds bytes back counts, too
-  double quiet_s = 0.05;  // longest delay of a reply that was given up, 0.005 to 0.5 (hal/servo/quicksilver_link.h)
+  double answer_timeout_s = 0.05;  // for one reply, 0.005 to 0.5; an adapter that holds bytes back counts, too
+  double quiet_s = 0.05;  // how much later a reply may still come, 0.005 to 0.5 (hal/servo/quicksilver_link.h)
 };
 
 // What the resident program keeps in its signature register.

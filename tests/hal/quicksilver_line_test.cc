@@ -38,7 +38,33 @@ TEST_F(QuickSilverLineTest, AReplyThatNeverComesIsNotWaitedForForever) {
   WheelTravel travel;
   EXPECT_EQ(servo_.read_travel(in_ms(10), travel), Status::timeout);
   override_answer = nullptr;
-  EXPECT_EQ(servo_.read_travel(in_ms(60), travel), Status::ok) << servo_.problem();
+  EXPECT_EQ(servo_.read_travel(in_ms(110), travel), Status::ok) << servo_.problem();
+}
+
+// 0.05 s is the configuration's default.
+TEST_F(QuickSilverLineTest, AnyTimesKeepALateReplyOut) {
+  for (const double answer_s : {0.005, 0.05, 0.5}) {
+    QuickSilverSettings settings = test::quicksilver_settings();
+    settings.answer_timeout_s = answer_s;
+    QuickSilver servo(settings, port_, clock_);
+    ASSERT_EQ(servo.open(), Status::ok) << servo.problem();
+    WheelTravel travel;
+    ASSERT_EQ(servo.read_travel(in_ms(20), travel), Status::ok) << servo.problem();
+    registers_[16][1] += 800;
+    bool asked = false;
+    override_answer = [&](const std::string& command) {
+      if (command != "@16 12 1" || asked) return false;
+      asked = true;
+      port_.say(data(16, registers_[16][1]), as_nanoseconds(answer_s) + 40 * kMillisecond);
+      return true;
+    };
+    EXPECT_EQ(servo.read_travel(in_ms(1) + as_nanoseconds(answer_s), travel), Status::timeout);
+    registers_[16][1] += 80;
+    ASSERT_EQ(servo.read_travel(in_ms(100), travel), Status::ok) << servo.problem();
+    EXPECT_NEAR(travel.left_m, 0.0066, 1e-12) << "0.006 is what was true when it was given up";
+    override_answer = nullptr;
+    registers_[16][1] = 0;
+  }
 }
 
 TEST_F(QuickSilverLineTest, RepliesOfTheOtherDriveAreNotTaken) {

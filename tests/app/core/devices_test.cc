@@ -10,6 +10,7 @@
 #include "app/core/image.h"
 #include "app/core/image_file.h"
 #include "app/core/input_error.h"
+#include "hal/servo/quicksilver_settings.h"
 #include "tests/support/config_checks.h"
 #include "tests/support/manual_clock.h"
 #include "tests/support/temp_folder.h"
@@ -34,6 +35,12 @@ TEST(Devices, TheConfigurationMayNameEveryDriverAndNoOther) {
   EXPECT_EQ(names(camera_drivers()), listed(kCameraDrivers));
   EXPECT_EQ(names(servo_drivers()), listed(kServoDrivers));
   EXPECT_EQ(names(compass_drivers()), listed(kCompassDrivers));
+}
+
+// A reply later than these is given up in the same way, with a configuration or without one.
+TEST(Devices, TheDrivesTimesAreTheSameInTheConfigurationAndInTheDriver) {
+  EXPECT_EQ(QuicksilverConfig{}.answer_timeout_s, QuickSilverSettings{}.answer_timeout_s);
+  EXPECT_EQ(QuicksilverConfig{}.watchdog_s, QuickSilverSettings{}.watchdog_s);
 }
 
 class DevicesTest : public testing::Test {
