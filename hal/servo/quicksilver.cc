@@ -15,6 +15,7 @@ constexpr Nanoseconds kStopTime = 5 * kMillisecond;  // of one drive; kept back 
 constexpr Nanoseconds kDriveTime = 18 * kMillisecond;
 constexpr Nanoseconds kTravelTime = 13 * kMillisecond;
 constexpr Nanoseconds kWatchEvery = kSecond;
+constexpr Nanoseconds kLongestPause = 200 * kMillisecond;  // no drive starts in less
 constexpr int kMissedChecks = 5;
 constexpr std::int32_t kCounterEnd = 10;  // one digit is the shortest to write; two in turn would do
 
@@ -140,12 +141,12 @@ Status QuickSilver::stop_drive(std::size_t drive, Nanoseconds deadline) {
     if (!owed) link_.send_blindly(drive, stop_text, deadline);
     return status;
   }
+  if (link_.was_busy()) return status;
   // It listens, but will not stop this way. HLT ends a resident program, so what the drive was is to be seen anew.
   start_over();
   return link_.command(drive, to(drive, Command::halt, {}), deadline) == Status::ok ? Status::ok : status;
 }
 
-  if (link_.was_busy()) return status;
 // ---- travel
 
 Status QuickSilver::read_travel(Nanoseconds deadline, WheelTravel& travel) {
@@ -160,6 +161,8 @@ Status QuickSilver::read_travel(Nanoseconds deadline, WheelTravel& travel) {
     if (status != Status::ok) return status;
   }
   const Nanoseconds time = begin + (clock_->now() - begin) / 2;
+  const Status known = see_unknown_ones(positions, deadline);
+  if (known != Status::ok) return known;
   const Status believed = take_positions(positions, time, deadline);
   travel = {
       .left_m = drives_[0].travel.metres(), .right_m = drives_[1].travel.metres(), .measured = true, .time = time};
@@ -173,7 +176,10 @@ Status QuickSilver::take_positions(const std::array<std::int32_t, 2>& positions,
   Status status = Status::ok;
   for (std::size_t d = 0; d < drives_.size(); ++d) {
     const Verdict verdict = drives_[d].travel.take(positions[d], time);
-    if (verdict == Verdict::believed) continue;
+    if (verdict == Verdict::believed) {
+      drives_[d].known_at = time;
+      continue;
+    }
     status = Status::bad_data;
     problem_.set("drive %d: position %d is further than its wheel can have gone", wheel(d).address, positions[d]);
     if (verdict == Verdict::doubted) continue;
@@ -183,6 +189,31 @@ Status QuickSilver::take_positions(const std::array<std::int32_t, 2>& positions,
     start_over();
   }
   return step_ == Step::done ? status : stop_after(status, 0, deadline);
+}
+
+// A drive that was silent may have been without power.
+bool QuickSilver::is_unknown(std::size_t drive) const {
+  const Drive& d = drives_[drive];
+  return settings_.supervised && d.travel.has_position() && d.heartbeat_time > 0 &&
+         clock_->now() - d.known_at > kLongestPause;
+}
+
+// Before a position is believed that is not where the wheel was. Where there is no time for both drives, the next call goes on.
+Status QuickSilver::see_unknown_ones(const std::array<std::int32_t, 2>& positions, Nanoseconds deadline) {
+  for (std::size_t d = 0; d < drives_.size(); ++d) {
+    if (!is_unknown(d) || drives_[d].travel.is_where_it_was(positions[d])) continue;
+    if (clock_->now() + QuickSilverLink::kCommandTime > deadline) {
+      problem_.set("drive %d: no time left to see whether it has started anew", wheel(d).address);
+      return Status::timeout;
+    }
+    const Status status = see_heartbeat_move(d, deadline);
+    if (status == Status::refused) {
+      start_over();
+      return stop_after(status, d, deadline);
+    }
+    if (status != Status::ok) return status;
+  }
+  return Status::ok;
 }
 
 // One of them in a call, when it is time and there is time.

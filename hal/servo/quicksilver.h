@@ -5,16 +5,18 @@
 // runs a resident program from power-up, which takes its velocity from a register and zeroes it when a second register, the
 // counter, has not moved for 200 ms. drive() writes both. open() believes in no program: it reads its signature, sees
 // its heartbeat move, and sees it zero a velocity of 1 unit (0.000002 rpm) that nobody kept alive; refused where that fails.
-// Later, read_travel() sees each second that the heartbeats still move. STP, HLT and VMI end a resident program, so a
-// supervised drive is stopped by velocity 0; HLT comes only after it answered that with a nak, and the program must
-// then be started again (power off and on).
+// Later, read_travel() sees each second that the heartbeats still move, and after a pause of 200 ms before it believes that
+// a wheel has moved: a drive that was without power counts from zero, and its heartbeat, too. STP, HLT and VMI end a
+// resident program, so a supervised drive is stopped by velocity 0; HLT comes only after it answered that with a nak other
+// than "busy", and the program must then be started again (power off and on).
 //
 // Line time at 57600 baud with 2 stop bits (11 bits or 0.191 ms a character; 10 % less with 1 stop bit), both drives
 // together, longest numbers, without the drives' own delay (about a millisecond a command):
 //   drive()        supervised  4 commands,  88 characters  16.8 ms
 //                  by VMI      2 commands,  78 characters  14.9 ms
 //   stop()         supervised  2 commands,  34 characters   6.5 ms
-//   read_travel()              2 commands,  58 characters  11.1 ms, and 5.7 ms more once a second for each drive
+//   read_travel()              2 commands,  58 characters  11.1 ms, and 5.7 ms more once a second for each drive;
+//                                                          after a pause 11.4 ms more where both have moved
 // One of them fits a period of 20 ms, both together take 28 ms: for both in every such period, set drives and port to
 // 115200 baud. After a reply that was lost or late, drive() answers timeout unless 23 ms are left before its deadline.
 //
@@ -54,7 +56,7 @@ class QuickSilver final : public Servo {
   Status drive(const WheelVelocities& wanted, Nanoseconds deadline) override;
   // bad_data: a position that the wheel cannot have reached (hal/servo/quicksilver_travel.h); when it turns out that the drive
   // has started anew, the wheels are stopped and the drives set up again. refused: the same, because a resident program no
-  // longer runs.
+  // longer runs, or has started anew. Travel goes on from where it was; what the wheel did meanwhile is not in it.
   Status read_travel(Nanoseconds deadline, WheelTravel& travel) override;
   // With the set acceleration. A command that a drive does not confirm is sent again, and reported. Sends nothing while a resident
   // program is on trial: the drives have confirmed that they stand.
@@ -65,8 +67,8 @@ class QuickSilver final : public Servo {
  private:
   enum class Step : std::uint8_t {
     stop,
-    position,
     signature,
+    position,
     acceleration,
     acceleration_again,
     heartbeat,
@@ -81,6 +83,8 @@ class QuickSilver final : public Servo {
     QuickSilverTravel travel;
     std::int32_t heartbeat = 0;
     Nanoseconds heartbeat_time = 0;
+    double beats_per_s = 0;    // 0: not known yet
+    Nanoseconds known_at = 0;  // when its position or its heartbeat last said that it goes on as it was
     int missed_checks = 0;
   };
 
@@ -94,7 +98,12 @@ class QuickSilver final : public Servo {
   Status take_step(std::size_t drive, Nanoseconds deadline);
   Status see_signature(std::size_t drive, Nanoseconds deadline);
   Status see_acceleration(std::size_t drive, Nanoseconds deadline);
-  Status see_heartbeat(std::size_t drive, Nanoseconds deadline);
+  // `beats` since the last look; below 0 where the drive has started anew, and its next position is where travel goes on.
+  Status see_heartbeat(std::size_t drive, Nanoseconds deadline, std::int64_t& beats);
+  bool is_unknown(std::size_t drive) const;
+  Status see_unknown_ones(const std::array<std::int32_t, 2>& positions, Nanoseconds deadline);
+  void rebase(std::size_t drive);
+  Status see_position(std::size_t drive, Nanoseconds deadline);
   Status see_heartbeat_move(std::size_t drive, Nanoseconds deadline);
   Status see_velocity_zeroed(std::size_t drive, Nanoseconds deadline);
   void finish_step();

@@ -25,7 +25,7 @@ struct QuickSilverCounters {
     wrong_address,     // replies of a drive that was not asked
     disconnections,    // how often the port went away
     refused_commands,  // velocities that drive() did not take
-    position_jumps,    // positions that no wheel can have reached
+    position_jumps,    // positions that no wheel can have reached, and drives found to have started anew
     dead_programs,     // how often a resident program was found not to run, or not as it should
   };
   std::array<Counter, 8> all = {{{"timeouts"},

@@ -15,7 +15,11 @@ constexpr Nanoseconds kOpenTime = 2 * kSecond;
 constexpr int kOpenTries = 3;  // a reply may get lost
 constexpr Nanoseconds kCloseTime = 100 * kMillisecond;
 constexpr std::int32_t kTrialVelocity = 1;  // units; no wheel moves by it
-constexpr double kTrialPatience = 1.5;      // the program's rounds make its time a little longer
+// A drive without a heartbeat that was away longer may have started anew.
+constexpr Nanoseconds kUnsupervisedPause = kSecond;
+constexpr double kCatchUpTime = 2;      // s; in less no drive starts and is where it was
+constexpr double kFewBeats = 0.5;       // of those that a program makes that goes on
+constexpr double kTrialPatience = 1.5;  // the program's rounds make its time a little longer
 
 }  // namespace
 
@@ -25,7 +29,12 @@ Status QuickSilver::open() {
   if (status != Status::ok) return status;
   for (std::size_t d = 0; d < drives_.size(); ++d) {
     drives_[d] = {};
-    drives_[d].travel.start(metres_per_count(wheel(d)), settings_.max_speed_mps);
+    QuickSilverTravel& travel = drives_[d].travel;
+    if (settings_.supervised) {
+      travel.start(metres_per_count(wheel(d)), settings_.max_speed_mps);
+    } else {
+      travel.start(metres_per_count(wheel(d)), settings_.max_speed_mps, kUnsupervisedPause);
+    }
     const double rpm_per_s = settings_.max_acceleration_mps2 * std::abs(motor_rpm_per_mps(wheel(d)));
     status = quicksilver::acceleration_units(rpm_per_s / 60, drives_[d].acceleration);
     if (status != Status::ok) return status;
@@ -102,9 +111,10 @@ Status QuickSilver::set_up(Nanoseconds deadline) {
       return Status::timeout;
     }
     clock_->sleep_until(begin);
-    const Status status = take_step(step_drive_, deadline);
+    const bool look_first = step_ == Step::position && is_unknown(step_drive_);
+    const Status status = look_first ? see_heartbeat_move(step_drive_, deadline) : take_step(step_drive_, deadline);
     if (status != Status::ok) return status;
-    finish_step();
+    if (!look_first) finish_step();
   }
   return Status::ok;
 }
@@ -112,22 +122,22 @@ Status QuickSilver::set_up(Nanoseconds deadline) {
 void QuickSilver::finish_step() {
   step_drive_ = 1 - step_drive_;
   if (step_drive_ != 0) return;
-  step_ = step_ == Step::position && !settings_.supervised ? Step::done
-                                                           : static_cast<Step>(static_cast<int>(step_) + 1);
+  if (settings_.supervised) {
+    step_ = static_cast<Step>(static_cast<int>(step_) + 1);
+  } else {
+    step_ = step_ == Step::stop ? Step::position : Step::done;
+  }
 }
 
 Status QuickSilver::take_step(std::size_t drive, Nanoseconds deadline) {
+  std::int64_t beats = 0;
   switch (step_) {
     case Step::stop:
       return stop_drive(drive, deadline);
-    case Step::position: {
-      std::int32_t position = 0;
-      const Status status = link_.read_register(drive, quicksilver::kPositionRegister, deadline, position);
-      if (status == Status::ok) (void)drives_[drive].travel.take(position, clock_->now());
-      return status;
-    }
     case Step::signature:
       return see_signature(drive, deadline);
+    case Step::position:
+      return see_position(drive, deadline);
     case Step::acceleration:
       return link_.command(
           drive, to(drive, Command::write_register, {settings_.velocity_register - 1, drives_[drive].acceleration}),
@@ -135,7 +145,7 @@ Status QuickSilver::take_step(std::size_t drive, Nanoseconds deadline) {
     case Step::acceleration_again:
       return see_acceleration(drive, deadline);
     case Step::heartbeat:
-      return see_heartbeat(drive, deadline);
+      return see_heartbeat(drive, deadline, beats);
     case Step::trial:
       drives_[drive].told_to_stop = false;
       trial_end_ = clock_->now() + as_nanoseconds(kTrialPatience * settings_.watchdog_s);
@@ -155,10 +165,30 @@ Status QuickSilver::see_signature(std::size_t drive, Nanoseconds deadline) {
   std::int32_t signature = 0;
   const Status status = link_.read_register(drive, settings_.signature_register, deadline, signature);
   if (status != Status::ok || signature == kQuickSilverSignature) return status;
+  rebase(drive);
   counters_.add(QuickSilverCounters::dead_programs);
   problem_.set("drive %d: no resident program: signature register %d holds %d instead of %d", wheel(drive).address,
                settings_.signature_register, signature, kQuickSilverSignature);
   return Status::refused;
+}
+
+void QuickSilver::rebase(std::size_t drive) {
+  QuickSilverTravel& travel = drives_[drive].travel;
+  if (travel.has_position()) counters_.add(QuickSilverCounters::position_jumps);
+  travel.rebase();
+}
+
+Status QuickSilver::see_position(std::size_t drive, Nanoseconds deadline) {
+  std::int32_t position = 0;
+  const Status status = link_.read_register(drive, quicksilver::kPositionRegister, deadline, position);
+  if (status != Status::ok) return status;
+  QuickSilverTravel& travel = drives_[drive].travel;
+  if (travel.take(position, clock_->now()) != QuickSilverTravel::Verdict::believed) {
+    rebase(drive);
+    (void)travel.take(position, clock_->now());
+  }
+  drives_[drive].known_at = clock_->now();
+  return status;
 }
 
 Status QuickSilver::see_acceleration(std::size_t drive, Nanoseconds deadline) {
@@ -170,18 +200,33 @@ Status QuickSilver::see_acceleration(std::size_t drive, Nanoseconds deadline) {
   return Status::refused;
 }
 
-Status QuickSilver::see_heartbeat(std::size_t drive, Nanoseconds deadline) {
-  const Status status =
-      link_.read_register(drive, settings_.heartbeat_register, deadline, drives_[drive].heartbeat);
-  if (status == Status::ok) drives_[drive].heartbeat_time = clock_->now();
+// A heartbeat that grew too little in a long time has begun again and caught up with where it was.
+Status QuickSilver::see_heartbeat(std::size_t drive, Nanoseconds deadline, std::int64_t& beats) {
+  Drive& d = drives_[drive];
+  std::int32_t heartbeat = 0;
+  beats = 0;
+  const Status status = link_.read_register(drive, settings_.heartbeat_register, deadline, heartbeat);
+  if (status != Status::ok) return status;
+  const Nanoseconds now = clock_->now();
+  if (d.heartbeat_time > 0) {
+    const double seconds = static_cast<double>(now - d.heartbeat_time) / kSecond;
+    beats = quicksilver::counts_between(d.heartbeat, heartbeat);
+    const bool caught_up =
+        seconds > kCatchUpTime && static_cast<double>(beats) < kFewBeats * d.beats_per_s * seconds;
+    if (beats > 0 && caught_up) beats = -1;
+    if (step_ == Step::heartbeat_again) d.beats_per_s = static_cast<double>(beats) / seconds;
+    if (beats < 0) rebase(drive);
+  }
+  d.heartbeat = heartbeat;
+  d.heartbeat_time = now;
   return status;
 }
 
 Status QuickSilver::see_heartbeat_move(std::size_t drive, Nanoseconds deadline) {
-  const std::int32_t before = drives_[drive].heartbeat;
-  const Status status = see_heartbeat(drive, deadline);
+  std::int64_t beats = 0;
+  const Status status = see_heartbeat(drive, deadline, beats);
   if (status != Status::ok) return status;
-  const std::int64_t beats = quicksilver::counts_between(before, drives_[drive].heartbeat);
+  drives_[drive].known_at = clock_->now();
   if (beats == 0) return program_is_dead(drive, "its heartbeat stands still");
   return beats > 0 ? Status::ok : program_is_dead(drive, "it has started anew");
 }

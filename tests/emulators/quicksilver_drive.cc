@@ -250,7 +250,7 @@ void QuickSilverLine::take_line(std::int64_t heard_ns) {
   const auto [end, error] = std::from_chars(line_.data(), line_.data() + line_.size(), address);
   if (error != std::errc()) return;
   for (QuickSilverDrive& drive : drives_) {
-    if (drive.address() != address || address == silent_address) continue;
+    if (drive.address() != address || address == silent_address || !has_power) continue;
     answer(drive, std::string_view(line_).substr(static_cast<std::size_t>(end - line_.data())), heard_ns);
   }
 }

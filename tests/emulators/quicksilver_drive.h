@@ -113,6 +113,7 @@ class QuickSilverLine final : public LineDevice {
   int nak_code = 2;                     // busy
   int silent_every = 0;                 // carried out, not answered
   int silent_address = 0;               // this drive has no power: it hears nothing and its motor is not looked at
+  bool has_power = true;                // false: no drive hears anything
   int garbage_every = 0;                // a damaged line comes before the reply
   bool split = false;                   // every reply comes in two pieces with 3 ms between them
   bool merge = false;                   // every reply comes in one piece with a repetition of itself

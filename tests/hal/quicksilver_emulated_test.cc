@@ -1,6 +1,7 @@
 // The driver against emulated drives, on a clock that only moves when somebody waits.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 #include <string>
@@ -41,6 +42,25 @@ class QuickSilverEmulatedTest : public testing::Test {
   }
 
   emulator::QuickSilverState state(std::size_t index) { return line_.state(index, clock_.now()); }
+
+  void give_power_back() {
+    for (std::size_t d = 0; d < line_.drives(); ++d) {
+      (void)state(d);
+      line_.drive(d).restart();
+    }
+    line_.has_power = true;
+  }
+
+  // The host asks all the time.
+  void cut_power_for(double seconds, bool also_the_port) {
+    line_.has_power = false;
+    port_.unplugged = also_the_port;
+    (void)drive_for(seconds, {.left_mps = 0.5, .right_mps = 0.5});
+    give_power_back();
+    if (!also_the_port) return;
+    clock_.advance(kSecond);  // the drives are back before the port is
+    port_.unplugged = false;
+  }
 
   void expect_travel_is_true() {
     ASSERT_EQ(servo_.read_travel(in_ms(100), travel_), Status::ok) << servo_.problem();
@@ -126,15 +146,102 @@ TEST_F(QuickSilverEmulatedTest, AnUnsupervisedHostThatGoesSilentLeavesThemTurnin
   QuickSilver servo(settings, port_, clock_);
   ASSERT_EQ(servo.open(), Status::ok) << servo.problem();
   ASSERT_EQ(servo.drive({.left_mps = 0.3, .right_mps = -0.3}, in_ms(20)), Status::ok) << servo.problem();
-  clock_.advance(10 * kSecond);
+  clock_.advance(4 * kSecond);
   EXPECT_NEAR(speed_mps(state(0)), 0.3, 1e-6) << "which is why max_speed_mps() is small";
   ASSERT_EQ(servo.read_travel(in_ms(20), travel_), Status::ok) << servo.problem();
-  EXPECT_NEAR(travel_.left_m, 3, 0.05);
-  EXPECT_NEAR(travel_.right_m, -3, 0.05);
+  EXPECT_NEAR(travel_.left_m, 1.2, 0.05);
+  EXPECT_NEAR(travel_.right_m, -1.2, 0.05);
   servo.close();
   clock_.advance(kSecond);
   EXPECT_EQ(speed_mps(state(0)), 0);
   EXPECT_EQ(speed_mps(state(1)), 0);
+}
+
+// An emergency stop that takes the drives' power: they count from zero when they are back.
+TEST_F(QuickSilverEmulatedTest, TravelGoesOnAfterThirtySecondsWithoutPower) {
+  for (const bool also_the_port : {false, true}) {
+    SCOPED_TRACE(also_the_port);
+    ASSERT_EQ(servo_.open(), Status::ok) << servo_.problem();
+    ASSERT_EQ(drive_for(17, {.left_mps = 0.5, .right_mps = 0.5}), 0) << servo_.problem();
+    ASSERT_GT(travel_.left_m, 8);
+    cut_power_for(30, also_the_port);
+    const double least = std::min(travel_.left_m, travel_.right_m);
+    for (int i = 0; i < 50; ++i) {
+      (void)one_period({.left_mps = 0.5, .right_mps = 0.5});
+      EXPECT_GE(travel_.left_m, least);
+      EXPECT_GE(travel_.right_m, least);
+    }
+    EXPECT_LT(travel_.left_m, least + 1.5);
+    ASSERT_EQ(drive_for(1, {.left_mps = 0.5, .right_mps = 0.5}), 0) << servo_.problem();
+    const WheelTravel before = travel_;
+    ASSERT_EQ(drive_for(4, {.left_mps = 0.5, .right_mps = 0.25}), 0) << servo_.problem();
+    EXPECT_NEAR(travel_.left_m - before.left_m, 2, 0.03);
+    EXPECT_NEAR(travel_.right_m - before.right_m, 1, 0.05);
+    servo_.close();
+  }
+}
+
+// Back for longer than it ran before, so that its heartbeat is beyond where it was.
+TEST_F(QuickSilverEmulatedTest, AHeartbeatThatHasCaughtUpIsNotTakenForOneThatWentOn) {
+  ASSERT_EQ(servo_.open(), Status::ok) << servo_.problem();
+  ASSERT_EQ(drive_for(17, {.left_mps = 0.5, .right_mps = 0.5}), 0) << servo_.problem();
+  const double least = travel_.left_m;
+  cut_power_for(30, true);
+  clock_.advance(25 * kSecond);
+  for (int i = 0; i < 50; ++i) {
+    (void)one_period({.left_mps = 0.5, .right_mps = 0.5});
+    EXPECT_GE(travel_.left_m, least);
+  }
+  EXPECT_EQ(drive_for(1, {.left_mps = 0.5, .right_mps = 0.5}), 0) << servo_.problem();
+}
+
+// A port that was away while the drives had power: all the way counts.
+TEST_F(QuickSilverEmulatedTest, TravelGoesOnAfterThirtySecondsWithoutThePort) {
+  ASSERT_EQ(servo_.open(), Status::ok) << servo_.problem();
+  ASSERT_EQ(drive_for(4, {.left_mps = 0.5, .right_mps = 0.25}), 0) << servo_.problem();
+  port_.unplugged = true;
+  (void)drive_for(30, {.left_mps = 0.5, .right_mps = 0.25});
+  port_.unplugged = false;
+  (void)drive_for(2, {.left_mps = 0.5, .right_mps = 0.25});
+  EXPECT_EQ(drive_for(2, {.left_mps = 0.5, .right_mps = 0.25}), 0) << servo_.problem();
+  expect_travel_is_true();
+}
+
+TEST_F(QuickSilverEmulatedTest, UnsupervisedTravelGoesOnAfterThirtySecondsWithoutPower) {
+  for (const bool also_the_port : {false, true}) {
+    SCOPED_TRACE(also_the_port);
+    QuickSilverSettings settings = test::emulated_quicksilver_settings();
+    settings.supervised = false;
+    QuickSilver servo(settings, port_, clock_);
+    ASSERT_EQ(servo.open(), Status::ok) << servo.problem();
+    double highest = 0;
+    const auto run = [&](double seconds) {
+      for (const Nanoseconds end = clock_.now() + static_cast<Nanoseconds>(seconds * kSecond);
+           clock_.now() < end;) {
+        const Nanoseconds next = in_ms(60);
+        (void)servo.drive({.left_mps = 0.3, .right_mps = 0.3}, in_ms(30));
+        (void)servo.read_travel(in_ms(30), travel_);
+        EXPECT_GE(travel_.left_m, highest);
+        highest = std::max(highest, travel_.left_m);
+        clock_.sleep_until(next);
+      }
+    };
+    run(27);
+    ASSERT_GT(highest, 8);
+    line_.has_power = false;
+    port_.unplugged = also_the_port;
+    run(30);
+    port_.unplugged = false;
+    give_power_back();
+    const double before = highest;
+    run(5);
+    EXPECT_NEAR(highest - before, 1.5, 0.3);
+    std::uint64_t jumps = 0;
+    for (const Counter& counter : servo.counters()) {
+      if (counter.name == std::string("position_jumps")) jumps = counter.value;
+    }
+    EXPECT_GE(jumps, 1U);
+  }
 }
 
 // A drive that has lost its power in the middle of a run, and gets it back.

@@ -18,7 +18,7 @@ TEST_F(QuickSilverOpenTest, OpenSetsUpAndSeesTheProgramsAct) {
   const Nanoseconds begin = clock_.now();
   ASSERT_EQ(servo_.open(), Status::ok) << servo_.problem();
   const std::vector<std::string> expected = {
-      "@16 11 30 0",     "@17 11 30 0",     "@16 12 1",  "@17 12 1",  "@16 12 33", "@17 12 33",
+      "@16 11 30 0",     "@17 11 30 0",     "@16 12 33", "@17 12 33", "@16 12 1",  "@17 12 1",
       "@16 11 29 32212", "@17 11 29 32212", "@16 12 29", "@17 12 29", "@16 12 32", "@17 12 32",
       "@16 11 30 1",     "@17 11 30 1",     "@16 12 32", "@17 12 32", "@16 12 30", "@17 12 30"};
   EXPECT_EQ(commands_, expected);

@@ -85,5 +85,26 @@ TEST_F(QuickSilverTravelTest, ALongPauseAllowsALongWay) {
   EXPECT_DOUBLE_EQ(travel_.metres(), 15);
 }
 
+TEST_F(QuickSilverTravelTest, APauseLongerThanTheLongestAllowsNoMore) {
+  travel_.start(0.001, 1.0, kSecond);
+  EXPECT_EQ(travel_.take(0, 0), Verdict::believed);
+  EXPECT_EQ(travel_.take(1'550, 10 * kSecond), Verdict::believed);
+  EXPECT_EQ(travel_.take(3'101, 40 * kSecond), Verdict::doubted);
+  EXPECT_DOUBLE_EQ(travel_.metres(), 1.55);
+}
+
+TEST_F(QuickSilverTravelTest, ARebaseAddsNoWay) {
+  EXPECT_FALSE(travel_.has_position());
+  EXPECT_EQ(take_after_tenth(50'000), Verdict::believed);
+  EXPECT_TRUE(travel_.has_position());
+  EXPECT_EQ(take_after_tenth(50'100), Verdict::believed);
+  travel_.rebase();
+  EXPECT_FALSE(travel_.has_position());
+  EXPECT_EQ(take_after_tenth(3), Verdict::believed);
+  EXPECT_DOUBLE_EQ(travel_.metres(), 0.1);
+  EXPECT_EQ(take_after_tenth(53), Verdict::believed);
+  EXPECT_DOUBLE_EQ(travel_.metres(), 0.15);
+}
+
 }  // namespace
 }  // namespace lakshya
