@@ -69,10 +69,12 @@ void visit_v4l2_keys(V4l2& c, Visitor& v) {
     c.check_eyes, Names{kNoYes});
   v(Key{"v4l2.skew_ms", "ms", "Two cameras: greatest difference between the times of a pair's images"}, c.skew_ms,
     Range{0, 1000});
-  v(Key{"v4l2.exposure_us", "us", "Exposure of both eyes, in steps of 100; -1: automatic"}, c.exposure_us,
-    Range{-1, 1'000'000, 1});
-  v(Key{"v4l2.gain", "", "Gain of both eyes, in the camera's own unit; -1: automatic"}, c.gain,
-    Range{-1, 1'000'000, 1});
+  v(Key{"v4l2.exposure_us", "us",
+        "Exposure of both eyes, in steps of 100; -1: automatic, for two cameras each by itself"},
+    c.exposure_us, Range{-1, 1'000'000, 1});
+  v(Key{"v4l2.gain", "",
+        "Gain of both eyes, in the camera's own unit; -1: automatic, for two cameras each by itself"},
+    c.gain, Range{-1, 1'000'000, 1});
   v(Key{"v4l2.buffers", "", "Images that the kernel keeps, of each camera"}, c.buffers, Range{4, 16, 1});
 }
 
