@@ -68,7 +68,11 @@ DeviceCheck check(const DevicesOptions& o) {
   if (name == "servo" || (has(servo_drivers(), name) && name != "sim")) {
     if (name != "servo") config.drivers.servo = name;
     const Made<Servo> made = make_servo(config, clock);
-    if (o.drive_mps > 0) spdlog::warn("the wheels are about to turn");
+    if (o.drive_mps > 0) {
+      spdlog::warn("the wheels are about to turn");
+    } else {
+      spdlog::info("no wheel is turned; --drive 0.1 turns them (lift the vehicle off the ground first)");
+    }
     return check_servo(existing(made, name), clock, settings);
   }
   std::string names = "camera, servo, compass";

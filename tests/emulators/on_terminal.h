@@ -20,6 +20,7 @@ class OnTerminal {
   OnTerminal& operator=(const OnTerminal&) = delete;
 
   const std::string& path() const { return terminal_.path(); }
+  const std::string& device() const { return terminal_.device(); }
 
   // Pulls the plug; the device runs on by itself.
   void unplug();

@@ -108,7 +108,7 @@ int main(int count, char** arguments) {
   sigaddset(&ends, SIGTERM);
   pthread_sigmask(SIG_BLOCK, &ends, nullptr);
   const lakshya::emulator::OnTerminal terminal(device);
-  std::printf("%s\n", terminal.path().c_str());
+  std::printf("%s\n", terminal.device().c_str());
   std::fflush(stdout);
   int signal = 0;
   sigwait(&ends, &signal);

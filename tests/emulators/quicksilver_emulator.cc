@@ -135,7 +135,7 @@ void run(const Options& options) {
   line.slow_ns = options.slow_ms * std::int64_t{1'000'000};
   line.checksum_errors = options.checksum_errors != 0;
   OnTerminal terminal(line);
-  std::printf("%s\n", terminal.path().c_str());
+  std::printf("%s\n", terminal.device().c_str());
   std::fflush(stdout);
   std::int64_t next_ns = monotonic_ns();
   while (stopped == 0) {

@@ -1,4 +1,6 @@
-// A pair of connected terminals of the kernel's: a driver opens path(), the test or emulator holds the other end.
+// A pair of connected terminals of the kernel's: a driver opens path(), the test or emulator holds the other end. The path is a
+// link that goes with the plug: the kernel gives a terminal's number to the next who asks, and a driver that looks for a line
+// that it lost must not find somebody else's.
 #pragma once
 
 #include <fcntl.h>
@@ -7,9 +9,12 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+
+#include "tests/support/temp_folder.h"
 
 namespace lakshya {
 
@@ -20,7 +25,9 @@ class PseudoTerminal {
     char name[64] = {};
     if (fd_ < 0 || grantpt(fd_) != 0 || unlockpt(fd_) != 0 || ptsname_r(fd_, name, sizeof name) != 0)
       throw std::runtime_error("no pseudo-terminal");
-    path_ = name;
+    device_ = name;
+    path_ = folder_.path("tty");
+    std::filesystem::create_symlink(device_, path_);
     // Held open, so that the line lives on while nobody else has it open, and nothing is echoed before the driver sets it up.
     held_ = ::open(name, O_RDWR | O_NOCTTY | O_CLOEXEC);
     termios mode{};
@@ -33,9 +40,13 @@ class PseudoTerminal {
   PseudoTerminal& operator=(const PseudoTerminal&) = delete;
 
   const std::string& path() const { return path_; }
+  // What the link points to, for people who start an emulator by hand.
+  const std::string& device() const { return device_; }
 
   // The plug is pulled: for the driver the terminal is gone.
   void unplug() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
     for (int* fd : {&held_, &fd_}) {
       if (*fd >= 0) (void)::close(*fd);
       *fd = -1;
@@ -63,6 +74,8 @@ class PseudoTerminal {
  private:
   int fd_ = -1;
   int held_ = -1;
+  TempFolder folder_;
+  std::string device_;
   std::string path_;
 };
 

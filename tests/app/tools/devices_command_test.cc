@@ -76,6 +76,7 @@ TEST_F(QuickSilverCommand, ADriveThatIsNotThereIsNamed) {
   const Outcome o = test_drives(terminal.path(), {"--set", "quicksilver.left_address=20"});
   EXPECT_EQ(o.exit_code, 1);
   EXPECT_NE(Json::parse(o.out)["fault"].get<std::string>().find("drive 20: no reply"), std::string::npos) << o.out;
+  EXPECT_NE(o.err.find("--drive"), std::string::npos) << o.err;
 }
 
 TEST_F(QuickSilverCommand, DrivesWithoutTheirProgramAreRefused) {
