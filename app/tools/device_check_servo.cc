@@ -45,7 +45,7 @@ class WheelTrial {
     if (!read(before, step.name)) return false;
     const WheelVelocities wanted{step.left * speed_mps, step.right * speed_mps};
     const Nanoseconds end = clock_->now() + duration;
-    for (Nanoseconds next = clock_->now(); next < end; next += kControlPeriod) {
+    for (Nanoseconds next = clock_->now(); next < end; next = std::max(next + kControlPeriod, clock_->now())) {
       clock_->sleep_until(next);
       if (is_interrupted()) return false;
       if (!ok(servo_->drive(wanted, next + kCommandTime), step.name)) return false;
