@@ -32,7 +32,7 @@ Made<Kind> none(const VehicleConfig& /*config*/, Clock& /*clock*/) {
 
 template <class Kind>
 Made<Kind> sim(const VehicleConfig& /*config*/, Clock& /*clock*/) {
-  throw InputError("drivers", "\"sim\" is the simulator's (choose a driver of a device, or run `lakshya sim`)");
+  throw InputError("drivers", "\"sim\" is the simulator's (choose a driver of a device)");
 }
 
 bool yes(const std::string& answer) {

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "app/core/devices.h"
 #include "app/core/input_error.h"
@@ -36,9 +37,14 @@ void on_signal(int /*number*/) {
   interrupt_flag = true;
 }
 
+// Not the names that stand for no device, or for a simulator's.
+bool is_of_a_device(std::string_view driver) {
+  return driver != "none" && driver != "sim";
+}
+
 template <class Kind>
 bool has(std::span<const Driver<Kind>> drivers, const std::string& name) {
-  return std::ranges::find(drivers, name, &Driver<Kind>::name) != drivers.end();
+  return is_of_a_device(name) && std::ranges::find(drivers, name, &Driver<Kind>::name) != drivers.end();
 }
 
 template <class Kind>
@@ -55,17 +61,17 @@ DeviceCheck check(const DevicesOptions& o) {
     (void)std::signal(number, on_signal);
   MonotonicClock clock;
   const std::string& name = o.test;
-  if (name == "camera" || (has(camera_drivers(), name) && name != "none" && name != "sim")) {
+  if (name == "camera" || has(camera_drivers(), name)) {
     if (name != "camera") config.drivers.camera = name;
     const Made<StereoCamera> made = make_camera(config, clock);
     return check_camera(existing(made, name), clock, settings);
   }
-  if (name == "compass" || (has(compass_drivers(), name) && name != "none" && name != "sim")) {
+  if (name == "compass" || has(compass_drivers(), name)) {
     if (name != "compass") config.drivers.compass = name;
     const Made<Compass> made = make_compass(config, clock);
     return check_compass(existing(made, name), clock, settings);
   }
-  if (name == "servo" || (has(servo_drivers(), name) && name != "sim")) {
+  if (name == "servo" || has(servo_drivers(), name)) {
     if (name != "servo") config.drivers.servo = name;
     const Made<Servo> made = make_servo(config, clock);
     if (o.drive_mps > 0) {
@@ -78,7 +84,7 @@ DeviceCheck check(const DevicesOptions& o) {
   std::string names = "camera, servo, compass";
   const auto add = [&names](const auto& drivers) {
     for (const auto& driver : drivers) {
-      if (driver.name != "none" && driver.name != "sim") names.append(", ").append(driver.name);
+      if (is_of_a_device(driver.name)) names.append(", ").append(driver.name);
     }
   };
   add(camera_drivers());

@@ -8,27 +8,14 @@
 #include <string>
 #include <string_view>
 
-#include "hal/serial_port.h"
 #include "tests/support/manual_clock.h"
+#include "tests/support/pluggable_port.h"
 
 namespace lakshya {
 
-class FakeSerialPort final : public SerialPort {
+class FakeSerialPort final : public PluggablePort {
  public:
-  explicit FakeSerialPort(ManualClock& clock) : clock_(&clock) {}
-
-  Status open() override {
-    ++opened;
-    if (unplugged) {
-      problem_.set("fake: not there");
-      return Status::disconnected;
-    }
-    open_ = true;
-    return Status::ok;
-  }
-  void close() override { open_ = false; }
-  std::span<const Counter> counters() const override { return {}; }
-  bool is_open() const override { return open_; }
+  explicit FakeSerialPort(ManualClock& clock) : PluggablePort("fake"), clock_(&clock) {}
 
   Status read(std::span<std::uint8_t> buffer, Nanoseconds deadline, std::size_t& count) override {
     count = 0;
@@ -70,8 +57,6 @@ class FakeSerialPort final : public SerialPort {
 
   std::function<void(const std::string& written)> answer;  // called with every write
   std::string written;
-  int opened = 0;
-  bool unplugged = false;
   bool stuck = false;  // nothing can be written
 
  private:
@@ -80,14 +65,8 @@ class FakeSerialPort final : public SerialPort {
     std::string bytes;
   };
 
-  bool gone() {
-    if (unplugged) open_ = false;
-    return !open_;
-  }
-
   ManualClock* clock_;
   std::deque<Piece> pieces_;
-  bool open_ = false;
 };
 
 }  // namespace lakshya

@@ -5,28 +5,16 @@
 #include <algorithm>
 #include <string>
 
-#include "hal/serial_port.h"
 #include "tests/emulators/line.h"
 #include "tests/support/manual_clock.h"
+#include "tests/support/pluggable_port.h"
 
 namespace lakshya {
 
-class LineDevicePort final : public SerialPort {
+class LineDevicePort final : public PluggablePort {
  public:
-  LineDevicePort(emulator::LineDevice& device, ManualClock& clock) : device_(&device), clock_(&clock) {}
-
-  Status open() override {
-    ++opened;
-    if (unplugged) {
-      problem_.set("emulated port: not there");
-      return Status::disconnected;
-    }
-    open_ = true;
-    return Status::ok;
-  }
-  void close() override { open_ = false; }
-  std::span<const Counter> counters() const override { return {}; }
-  bool is_open() const override { return open_; }
+  LineDevicePort(emulator::LineDevice& device, ManualClock& clock)
+      : PluggablePort("emulated port"), device_(&device), clock_(&clock) {}
 
   Status read(std::span<std::uint8_t> buffer, Nanoseconds deadline, std::size_t& count) override {
     count = 0;
@@ -54,21 +42,12 @@ class LineDevicePort final : public SerialPort {
     input_.clear();
   }
 
-  int opened = 0;
-  bool unplugged = false;
-
  private:
   static constexpr Nanoseconds kLook = 50'000;
-
-  bool gone() {
-    if (unplugged) open_ = false;
-    return !open_;
-  }
 
   emulator::LineDevice* device_;
   ManualClock* clock_;
   std::string input_;
-  bool open_ = false;
 };
 
 }  // namespace lakshya
