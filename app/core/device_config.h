@@ -11,6 +11,8 @@ struct DriversConfig {
   std::string camera = "folder";
   std::string servo = "record";
   std::string compass = "none";
+  std::string estop = "none";
+  std::string watchdog = "none";
   double unsupervised_speed_mps = 0.3;  // v_unsupervised
 };
 
@@ -126,6 +128,18 @@ struct OdometryConfig {
   double heading_time_s = 2;
   double heading_jump_deg = 20;
   double jump_hold_s = 3;
+};
+
+struct EstopConfig {
+  std::string path;
+  std::string chip = "gpiochip0";
+  int line = -1;
+  std::string active_low = "no";
+};
+
+struct WatchdogConfig {
+  std::string path = "/dev/watchdog";
+  int timeout_s = 10;
 };
 
 }  // namespace lakshya

@@ -11,6 +11,8 @@ namespace lakshya {
 inline constexpr std::array<std::string_view, 5> kCameraDrivers{"none", "folder", "v4l2", "dc1394", "sim"};
 inline constexpr std::array<std::string_view, 4> kServoDrivers{"record", "quicksilver", "pwm", "sim"};
 inline constexpr std::array<std::string_view, 4> kCompassDrivers{"none", "os5000", "iio", "sim"};
+inline constexpr std::array<std::string_view, 3> kEstopDrivers{"none", "file", "gpio"};
+inline constexpr std::array<std::string_view, 2> kWatchdogDrivers{"none", "linux"};
 inline constexpr std::array<std::string_view, 3> kV4l2Formats{"grey", "yuyv", "mjpg"};
 inline constexpr std::array<std::string_view, 5> kBayerPatterns{"none", "bggr", "rggb", "grbg", "gbrg"};
 inline constexpr std::array<std::string_view, 2> kCommandEnds{"return", "space"};
@@ -31,6 +33,12 @@ void visit_drivers_keys(Drivers& c, Visitor& v) {
   v(Key{"drivers.compass", "",
         "Compass (os5000: OceanServer OS5000; iio: a magnetometer of the kernel; sim: the simulator's)"},
     c.compass, Names{kCompassDrivers});
+  v(Key{"drivers.estop", "",
+        "Emergency stop that this program reads, besides the switch in the drives' power (file: a file of 0 or 1; "
+        "gpio: a switch on a line of a GPIO chip)"},
+    c.estop, Names{kEstopDrivers});
+  v(Key{"drivers.watchdog", "", "What resets the machine when this program hangs (linux: the machine's own)"},
+    c.watchdog, Names{kWatchdogDrivers});
   v(Key{"drivers.unsupervised_speed_mps", "m/s",
         "Greatest speed with drives that nothing stops when this computer has (v_unsupervised)"},
     c.unsupervised_speed_mps, Range{0, 5});
@@ -216,6 +224,24 @@ void visit_odometry_keys(Odometry& c, Visitor& v) {
     c.jump_hold_s, Range{0, 100});
 }
 
+template <class Estop, class Visitor>
+void visit_estop_keys(Estop& c, Visitor& v) {
+  v(Key{"estop.path", "", "file: it begins with 1 when the stop is pressed and with 0 when not"}, c.path, Text{});
+  v(Key{"estop.chip", "", "gpio: name, label or path of the chip (pinctrl-bcm2711, say)"}, c.chip, Text{});
+  v(Key{"estop.line", "", "gpio: number of the line on that chip; -1: not given"}, c.line, Range{-1, 1023, 1});
+  v(Key{"estop.active_low", "",
+        "gpio: the switch closes to ground when it is pressed; no: it opens, and a cut wire is seen"},
+    c.active_low, Names{kNoYes});
+}
+
+template <class Watchdog, class Visitor>
+void visit_watchdog_keys(Watchdog& c, Visitor& v) {
+  v(Key{"watchdog.path", "", "linux: the watchdog's device"}, c.path, Text{});
+  v(Key{"watchdog.timeout_s", "s",
+        "linux: it acts so long after this program's last sign of life; hardware may round it"},
+    c.timeout_s, Range{1, 3600, 1});
+}
+
 template <class Config, class Visitor>
 void visit_device_keys(Config& c, Visitor& v) {
   visit_drivers_keys(c.drivers, v);
@@ -229,6 +255,8 @@ void visit_device_keys(Config& c, Visitor& v) {
   visit_os5000_keys(c.os5000, v);
   visit_iio_keys(c.iio, v);
   visit_odometry_keys(c.odometry, v);
+  visit_estop_keys(c.estop, v);
+  visit_watchdog_keys(c.watchdog, v);
 }
 
 }  // namespace lakshya

@@ -15,10 +15,14 @@
 #include "hal/camera/v4l2_camera.h"
 #include "hal/compass/iio_compass.h"
 #include "hal/compass/os5000.h"
+#include "hal/estop/file_estop.h"
+#include "hal/estop/gpio_estop.h"
+#include "hal/estop/gpiod_line.h"
 #include "hal/serial/tty_port.h"
 #include "hal/servo/pwm_servo.h"
 #include "hal/servo/quicksilver.h"
 #include "hal/servo/record_servo.h"
+#include "hal/watchdog/linux_watchdog.h"
 
 namespace lakshya {
 namespace {
@@ -186,12 +190,35 @@ Made<Compass> iio(const VehicleConfig& config, Clock& clock) {
   return {nullptr, std::make_unique<IioCompass>(iio_settings(config), linux_system_calls(), clock)};
 }
 
+Made<EmergencyStop> file(const VehicleConfig& config, Clock& /*clock*/) {
+  if (config.estop.path.empty()) throw InputError("estop.path", "no file is given (it says 0 or 1)");
+  return {nullptr, std::make_unique<FileEstop>(FileEstopSettings{.path = config.estop.path})};
+}
+
+Made<EmergencyStop> gpio(const VehicleConfig& config, Clock& /*clock*/) {
+  const EstopConfig& c = config.estop;
+  if (c.chip.empty()) throw InputError("estop.chip", "no GPIO chip is given (they are /dev/gpiochip*)");
+  if (c.line < 0) throw InputError("estop.line", "no line of " + c.chip + " is given (docs/wiring.md)");
+  GpioEstopSettings settings{.chip = c.chip, .line = c.line, .active_low = yes(c.active_low)};
+  std::shared_ptr<GpioLine> line = make_gpiod_line();
+  auto estop = std::make_unique<GpioEstop>(std::move(settings), *line);
+  return {std::move(line), std::move(estop)};
+}
+
+Made<Watchdog> linux_watchdog(const VehicleConfig& config, Clock& /*clock*/) {
+  const WatchdogConfig& c = config.watchdog;
+  return {nullptr,
+          std::make_unique<LinuxWatchdog>(LinuxWatchdogSettings{.path = c.path, .timeout_s = c.timeout_s})};
+}
+
 // ---- the lists
 
 constexpr Driver<StereoCamera> kCameras[] = {
     {"none", none}, {"folder", folder}, {"v4l2", v4l2}, {"dc1394", dc1394}, {"sim", sim}};
 constexpr Driver<Servo> kServos[] = {{"record", record}, {"quicksilver", quicksilver}, {"pwm", pwm}, {"sim", sim}};
 constexpr Driver<Compass> kCompasses[] = {{"none", none}, {"os5000", os5000}, {"iio", iio}, {"sim", sim}};
+constexpr Driver<EmergencyStop> kEstops[] = {{"none", none}, {"file", file}, {"gpio", gpio}};
+constexpr Driver<Watchdog> kWatchdogs[] = {{"none", none}, {"linux", linux_watchdog}};
 
 template <class Kind>
 Made<Kind> make(std::span<const Driver<Kind>> drivers, const std::string& name, const VehicleConfig& config,
@@ -212,6 +239,12 @@ std::span<const Driver<Servo>> servo_drivers() {
 std::span<const Driver<Compass>> compass_drivers() {
   return kCompasses;
 }
+std::span<const Driver<EmergencyStop>> estop_drivers() {
+  return kEstops;
+}
+std::span<const Driver<Watchdog>> watchdog_drivers() {
+  return kWatchdogs;
+}
 
 Made<StereoCamera> make_camera(const VehicleConfig& config, Clock& clock) {
   return make(camera_drivers(), config.drivers.camera, config, clock);
@@ -221,6 +254,12 @@ Made<Servo> make_servo(const VehicleConfig& config, Clock& clock) {
 }
 Made<Compass> make_compass(const VehicleConfig& config, Clock& clock) {
   return make(compass_drivers(), config.drivers.compass, config, clock);
+}
+Made<EmergencyStop> make_estop(const VehicleConfig& config, Clock& clock) {
+  return make(estop_drivers(), config.drivers.estop, config, clock);
+}
+Made<Watchdog> make_watchdog(const VehicleConfig& config, Clock& clock) {
+  return make(watchdog_drivers(), config.drivers.watchdog, config, clock);
 }
 
 IioCompassSettings iio_settings(const VehicleConfig& config) {

@@ -11,8 +11,10 @@
 #include "hal/clock.h"
 #include "hal/compass.h"
 #include "hal/compass/iio_compass.h"
+#include "hal/estop.h"
 #include "hal/odometry/wheel_odometry.h"
 #include "hal/servo.h"
+#include "hal/watchdog.h"
 
 namespace lakshya {
 
@@ -32,12 +34,16 @@ struct Driver {
 std::span<const Driver<StereoCamera>> camera_drivers();
 std::span<const Driver<Servo>> servo_drivers();
 std::span<const Driver<Compass>> compass_drivers();
+std::span<const Driver<EmergencyStop>> estop_drivers();
+std::span<const Driver<Watchdog>> watchdog_drivers();
 
 // Those that the configuration names. `clock` outlives them. Throws InputError where the configuration lacks what the
-// driver needs (a port, images), and for "sim", which only a simulator has.
+// driver needs (a port, images, a line), and for "sim", which only a simulator has.
 Made<StereoCamera> make_camera(const VehicleConfig& config, Clock& clock);
 Made<Servo> make_servo(const VehicleConfig& config, Clock& clock);
 Made<Compass> make_compass(const VehicleConfig& config, Clock& clock);
+Made<EmergencyStop> make_estop(const VehicleConfig& config, Clock& clock);
+Made<Watchdog> make_watchdog(const VehicleConfig& config, Clock& clock);
 
 // Throws InputError for iio.axes that are none. For a calibration, which wants the field itself.
 IioCompassSettings iio_settings(const VehicleConfig& config);

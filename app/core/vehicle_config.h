@@ -89,6 +89,8 @@ struct VehicleConfig {
   Os5000Config os5000;
   IioConfig iio;
   OdometryConfig odometry;
+  EstopConfig estop;
+  WatchdogConfig watchdog;
 };
 
 }  // namespace lakshya

@@ -23,7 +23,7 @@ struct Group {
   std::string_view name;
   std::string_view meaning;
 };
-inline constexpr std::array<Group, 18> kGroups{{
+inline constexpr std::array<Group, 20> kGroups{{
     {"camera", "Mount of the left camera, relative to the ground under the wheels and to the turning centre"},
     {"matcher", "From the rectified pair to disparities"},
     {"prune", "Which points matter: depth, floor and ceiling"},
@@ -43,6 +43,8 @@ inline constexpr std::array<Group, 18> kGroups{{
     {"os5000", "Compass driver os5000: OceanServer OS5000"},
     {"iio", "Compass driver iio: a magnetometer of the kernel's industrial I/O"},
     {"odometry", "The pose from the wheels' travel and the compass"},
+    {"estop", "Emergency stop drivers file and gpio"},
+    {"watchdog", "Watchdog driver linux"},
 }};
 
 // A profile is a list of overrides, as text: what --set would say.

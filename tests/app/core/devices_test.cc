@@ -11,6 +11,7 @@
 #include "app/core/image_file.h"
 #include "app/core/input_error.h"
 #include "hal/servo/quicksilver_settings.h"
+#include "hal/watchdog/linux_watchdog.h"
 #include "tests/support/config_checks.h"
 #include "tests/support/manual_clock.h"
 #include "tests/support/temp_folder.h"
@@ -35,6 +36,13 @@ TEST(Devices, TheConfigurationMayNameEveryDriverAndNoOther) {
   EXPECT_EQ(names(camera_drivers()), listed(kCameraDrivers));
   EXPECT_EQ(names(servo_drivers()), listed(kServoDrivers));
   EXPECT_EQ(names(compass_drivers()), listed(kCompassDrivers));
+  EXPECT_EQ(names(estop_drivers()), listed(kEstopDrivers));
+  EXPECT_EQ(names(watchdog_drivers()), listed(kWatchdogDrivers));
+}
+
+TEST(Devices, TheWatchdogIsTheSameInTheConfigurationAndInTheDriver) {
+  EXPECT_EQ(WatchdogConfig{}.path, LinuxWatchdogSettings{}.path);
+  EXPECT_EQ(WatchdogConfig{}.timeout_s, LinuxWatchdogSettings{}.timeout_s);
 }
 
 // A reply later than these is given up in the same way, with a configuration or without one.
@@ -110,6 +118,38 @@ TEST_F(DevicesTest, NoneIsNoDevice) {
   config_.drivers.camera = "none";
   EXPECT_EQ(make_camera(config_, clock_).device, nullptr);
   EXPECT_EQ(make_compass(config_, clock_).device, nullptr);
+  EXPECT_EQ(make_estop(config_, clock_).device, nullptr);
+  EXPECT_EQ(make_watchdog(config_, clock_).device, nullptr);
+}
+
+TEST_F(DevicesTest, AnEmergencyStopIsAFileOrALine) {
+  const auto estop_refusal = [&] { return refusal([&] { (void)make_estop(config_, clock_); }); };
+  config_.drivers.estop = "file";
+  EXPECT_TRUE(contains(estop_refusal(), "estop.path"));
+  config_.estop.path = folder_.write("estop", std::string("0\n"));
+  const Made<EmergencyStop> file = make_estop(config_, clock_);
+  ASSERT_EQ(file.device->open(), Status::ok) << file.device->problem();
+  bool pressed = true;
+  EXPECT_EQ(file.device->read(pressed), Status::ok);
+  EXPECT_FALSE(pressed);
+  config_.drivers.estop = "gpio";
+  EXPECT_TRUE(contains(estop_refusal(), "estop.line"));
+  config_.estop.line = 17;
+  config_.estop.chip = "";
+  EXPECT_TRUE(contains(estop_refusal(), "estop.chip"));
+  config_.estop.chip = "gpiochip999";
+  const Made<EmergencyStop> line = make_estop(config_, clock_);
+  EXPECT_NE(line.device->open(), Status::ok);
+  EXPECT_NE(line.device->read(pressed), Status::ok);
+  EXPECT_TRUE(pressed);
+}
+
+TEST_F(DevicesTest, AWatchdogIsTheMachinesOwn) {
+  config_.drivers.watchdog = "linux";
+  config_.watchdog.path = folder_.path("none");
+  const Made<Watchdog> watchdog = make_watchdog(config_, clock_);
+  EXPECT_EQ(watchdog.device->open(), Status::disconnected);
+  EXPECT_TRUE(contains(watchdog.device->problem(), folder_.path("none")));
 }
 
 TEST_F(DevicesTest, DrivesTakeTheVehiclesLimits) {

@@ -54,6 +54,8 @@ TEST(VehicleConfigKeys, EveryFieldHasItsKey) {
   EXPECT_EQ(keys["pwm"], field_count<PwmConfig>());
   EXPECT_EQ(keys["compass"], field_count<CompassConfig>());
   EXPECT_EQ(keys["odometry"], field_count<OdometryConfig>());
+  EXPECT_EQ(keys["estop"], field_count<EstopConfig>());
+  EXPECT_EQ(keys["watchdog"], field_count<WatchdogConfig>());
   EXPECT_EQ(keys.size() + 1, static_cast<std::size_t>(field_count<VehicleConfig>()));  // and the profile's name
 }
 
