@@ -105,7 +105,8 @@ inline const std::vector<Layer>& layers() {
       {"hal/", {"hal/", "kernels/base/"}, {"opencv2/", "yaml-cpp/", "CLI/", "nlohmann/", "Eigen/"}},
       {"app/nav/", {"app/nav/", "kernels/"}, {}, true},
       {"app/core/", {"app/core/", "app/nav/", "hal/", "kernels/"}, {"opencv2/"}},
-      {"app/lakshyad/", {"app/lakshyad/", "app/core/", "app/nav/", "hal/", "kernels/"}, {"opencv2/"}},
+      {"app/loop/", {"app/loop/", "app/core/", "app/nav/", "hal/", "kernels/"}, {"opencv2/", "CLI/"}},
+      {"app/lakshyad/", {"app/lakshyad/", "app/loop/", "app/core/", "app/nav/", "hal/", "kernels/"}, {"opencv2/"}},
       {"app/tools/", {"app/", "hal/", "kernels/"}, {}},
   };
   return table;

@@ -20,7 +20,19 @@ class Arena {
 
   Arena() = default;
   explicit Arena(std::size_t bytes)
-      : block_(static_cast<std::byte*>(::operator new (bytes, std::align_val_t{kAlignment}))), capacity_(bytes) {}
+      : block_(static_cast<std::byte*>(::operator new (bytes, std::align_val_t{kAlignment}))),
+        first_(block_.get()),
+        capacity_(bytes) {}
+
+  // A part of this arena for a user that wants one of its own: it ends with the user, the memory stays this arena's.
+  // Of a measuring arena: the bytes are counted here, and the part measures.
+  Arena part(std::size_t bytes) {
+    Arena result;
+    const std::span<std::byte> memory = take<std::byte>(bytes);
+    result.first_ = memory.data();
+    result.capacity_ = memory.size();
+    return result;
+  }
 
   // Zeroed elements, aligned to kAlignment. A real arena that is too small throws std::bad_alloc: a layout that
   // takes more than it measured is a programming error, found at start.
@@ -29,9 +41,9 @@ class Arena {
     const std::size_t bytes = (count * sizeof(T) + kAlignment - 1) / kAlignment * kAlignment;
     const std::size_t begin = used_;
     used_ += bytes;
-    if (block_ == nullptr) return {};
+    if (first_ == nullptr) return {};
     if (used_ > capacity_) throw std::bad_alloc();
-    T* first = reinterpret_cast<T*>(block_.get() + begin);
+    T* first = reinterpret_cast<T*>(first_ + begin);
     std::uninitialized_value_construct_n(first, count);
     return {first, count};
   }
@@ -43,6 +55,7 @@ class Arena {
   }
 
   std::size_t used() const { return used_; }
+  bool measures() const { return first_ == nullptr; }
 
   // Where everything taken from this arena lies.
   static constexpr Memory memory() { return Memory::host; }
@@ -51,7 +64,8 @@ class Arena {
   struct Release {
     void operator()(std::byte* p) const { ::operator delete (p, std::align_val_t{kAlignment}); }
   };
-  std::unique_ptr<std::byte, Release> block_;
+  std::unique_ptr<std::byte, Release> block_;  // null in a part
+  std::byte* first_ = nullptr;
   std::size_t capacity_ = 0;
   std::size_t used_ = 0;
 };

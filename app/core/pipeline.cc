@@ -37,6 +37,19 @@ std::vector<NavGrid> take_maps(const GridGeometry& g, int bands, Arena& arena) {
   return maps;
 }
 
+template <class Images>
+Images take_rectify_images(bool remap, const RectifiedGeometry& camera, Arena& arena) {
+  if (!remap) return {};
+  return {arena.take_image<std::int16_t>(camera.width, camera.height),
+          arena.take_image<std::int16_t>(camera.width, camera.height),
+          arena.take_image<std::uint16_t>(camera.width, camera.height)};
+}
+
+template <class T>
+void copy_image(const Image<T>& from, ImageView<T> to) {
+  std::copy(from.view().data, from.view().row(to.height), to.data);
+}
+
 void require(Status status, const char* what) {
   if (status != Status::ok) {
     throw InputError(what, std::string("camera and configuration do not go together: ") + to_string(status) +
@@ -56,9 +69,11 @@ Status timed(const Clock& clock, Stage stage, FrameResult& result, Step&& step) 
 
 }  // namespace
 
-Pipeline::Buffers::Buffers(const VehicleConfig& config, const RectifiedGeometry& camera, const KernelTable& kernels,
-                           Arena& arena)
-    : left(arena.take_image<std::uint8_t>(camera.width, camera.height)),
+Pipeline::Buffers::Buffers(const VehicleConfig& config, const RectifiedGeometry& camera, bool remap,
+                           const KernelTable& kernels, Arena& arena)
+    : map_left(take_rectify_images<RectifyImages>(remap, camera, arena)),
+      map_right(take_rectify_images<RectifyImages>(remap, camera, arena)),
+      left(arena.take_image<std::uint8_t>(camera.width, camera.height)),
       right(arena.take_image<std::uint8_t>(camera.width, camera.height)),
       matcher(config.matcher, camera.doffs(), camera.width, camera.height, kernels, arena),
       classes(arena.take_image<PixelClass>(camera.width, camera.height)),
@@ -71,30 +86,10 @@ Pipeline::Buffers::Buffers(const VehicleConfig& config, const RectifiedGeometry&
       thresholds(arena.take<CellThresholds>(size(config.grid.rows) * size(config.grid.cols))),
       polar_table(arena.take<PolarEntry>(polar_table_entries(grid_geometry(config.grid)))) {}
 
-Pipeline::Pipeline(const VehicleConfig& config, const StereoCalibration& calibration, int width, int height,
-                   const KernelTable& kernels, const Clock& clock)
-    : kernels_(&kernels),
-      clock_(&clock),
-      camera_(rectified_geometry(calibration, width, height)),
-      bands_(config.matcher.bands),
-      min_height_mm_(static_cast<std::int32_t>(std::lround(config.score.min_height_m * 1000))),
-      blind_zone_m_(blind_zone_m(config, camera_)),
-      remap_(needs_remap(calibration)) {
-  if (remap_) {
-    const Rectification r =
-        calibration.rectification ? *calibration.rectification : rectify_stereo(calibration, width, height);
-    maps_left_ = make_rectify_maps(calibration.left, r.R1, r.P1, width, height);
-    maps_right_ = make_rectify_maps(calibration.right, r.R2, r.P2, width, height);
-  }
-  const int first = stored_range(config.matcher.min_disparity, camera_.doffs()).first_raw;
-  if (first >= width || first + config.matcher.disparities <= -width) {
-    throw InputError(calibration.source, "search range: disparities from " +
-                                             std::to_string(config.matcher.min_disparity) + " px with doffs " +
-                                             std::to_string(camera_.doffs()) + " px lie outside an image " +
-                                             std::to_string(width) + " px wide (change matcher.min_disparity)");
-  }
+std::size_t Pipeline::memory_bytes(const VehicleConfig& config, const StereoCalibration& calibration, int width,
+                                   int height, const KernelTable& kernels) {
   Arena measure;
-  (void)Buffers(config, camera_, kernels, measure);
+  (void)Buffers(config, rectified_geometry(calibration, width, height), needs_remap(calibration), kernels, measure);
   if (measure.used() > kMaxArenaBytes) {
     throw InputError(calibration.source,
                      "images of " + std::to_string(width) + "x" + std::to_string(height) + " need " +
@@ -102,12 +97,33 @@ Pipeline::Pipeline(const VehicleConfig& config, const StereoCalibration& calibra
                          std::to_string(kMaxArenaBytes >> 20) +
                          " (use smaller images, or fewer matcher.disparities or matcher.bands)");
   }
+  return measure.used();
+}
+
+Pipeline::Pipeline(const VehicleConfig& config, const StereoCalibration& calibration, int width, int height,
+                   const KernelTable& kernels, const Clock& clock, Arena memory)
+    : kernels_(&kernels),
+      clock_(&clock),
+      camera_(rectified_geometry(calibration, width, height)),
+      bands_(config.matcher.bands),
+      min_height_mm_(static_cast<std::int32_t>(std::lround(config.score.min_height_m * 1000))),
+      blind_zone_m_(blind_zone_m(config, camera_)),
+      remap_(needs_remap(calibration)),
+      arena_(std::move(memory)) {
+  const int first = stored_range(config.matcher.min_disparity, camera_.doffs()).first_raw;
+  if (first >= width || first + config.matcher.disparities <= -width) {
+    throw InputError(calibration.source, "search range: disparities from " +
+                                             std::to_string(config.matcher.min_disparity) + " px with doffs " +
+                                             std::to_string(camera_.doffs()) + " px lie outside an image " +
+                                             std::to_string(width) + " px wide (change matcher.min_disparity)");
+  }
   if (kernels.memory != Arena::memory()) {
     throw InputError("backend",
                      "its kernels want their buffers in a device's memory, and the pipeline's are in the host's");
   }
-  arena_ = Arena(measure.used());
-  buffers_ = std::make_unique<Buffers>(config, camera_, kernels, arena_);
+  if (arena_.measures()) arena_ = Arena(memory_bytes(config, calibration, width, height, kernels));
+  buffers_ = std::make_unique<Buffers>(config, camera_, remap_, kernels, arena_);
+  if (remap_) make_maps(calibration);
 
   Buffers& b = *buffers_;
   require(build_prune_model(prune_geometry(config, camera_), b.depth_table, b.height_table, mount_model_), "prune");
@@ -119,6 +135,28 @@ Pipeline::Pipeline(const VehicleConfig& config, const StereoCalibration& calibra
   planner.blind_zone_m = blind_zone_m_;
   require(planner_.configure(planner, config.vehicle, b.maps[0].geometry, b.polar_table, kernels.polar_histogram),
           "planner");
+}
+
+void Pipeline::make_maps(const StereoCalibration& calibration) {
+  const Rectification r = calibration.rectification
+                              ? *calibration.rectification
+                              : rectify_stereo(calibration, camera_.width, camera_.height);
+  const auto make = [this](const CameraModel& camera, const Eigen::Matrix3d& rotation,
+                           const Eigen::Matrix<double, 3, 4>& projection, const RectifyImages& to) {
+    const RectifyMaps maps = make_rectify_maps(camera, rotation, projection, camera_.width, camera_.height);
+    copy_image(maps.x, to.x);
+    copy_image(maps.y, to.y);
+    copy_image(maps.fraction, to.fraction);
+  };
+  make(calibration.left, r.R1, r.P1, buffers_->map_left);
+  make(calibration.right, r.R2, r.P2, buffers_->map_right);
+}
+
+void Pipeline::begin_anew() {
+  prune_model_ = mount_model_;
+  ground_offset16_.reset();
+  plan_state_ = {};
+  times_ = {};
 }
 
 Rows Pipeline::band_rows(int band) const {
@@ -137,7 +175,7 @@ Status Pipeline::rectify(ImageView<const std::uint8_t> left, ImageView<const std
 #pragma omp parallel for schedule(dynamic) reduction(max : worst)
   for (int i = 0; i < 2 * bands_; ++i) {
     const bool is_left = i < bands_;
-    const RectifyMaps& maps = is_left ? maps_left_ : maps_right_;
+    const RectifyImages& maps = is_left ? buffers_->map_left : buffers_->map_right;
     const Status status = kernels_->rectify(is_left ? left : right, maps.view(), band_rows(i % bands_),
                                             is_left ? buffers_->left : buffers_->right);
     worst = std::max(worst, static_cast<int>(status));

@@ -37,9 +37,14 @@ struct FrameResult {
 class Pipeline {
  public:
   // width, height: of the raw images, already compared with the calibration's (require_image_size).
-  // Throws InputError for a camera and configuration that do not go together.
+  // memory: memory_bytes() of a larger arena; a measuring one: the pipeline takes an arena of its own.
+  // Throws InputError for a camera and configuration that do not go together. `kernels` and `clock` outlive the pipeline.
   Pipeline(const VehicleConfig& config, const StereoCalibration& calibration, int width, int height,
-           const KernelTable& kernels, const Clock& clock);
+           const KernelTable& kernels, const Clock& clock, Arena memory = {});
+
+  // What the pipeline will take for images of that size; depends on the number of OpenMP's threads.
+  static std::size_t memory_bytes(const VehicleConfig& config, const StereoCalibration& calibration, int width, int height,
+                                  const KernelTable& kernels);
 
   // left, right: raw images of the size given at the start.
   Status process(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, const PlanInput& input,
@@ -53,11 +58,21 @@ class Pipeline {
   // Of all frames that were processed to the end, or of those since clear_times().
   const StageTimes& times() const { return times_; }
   void clear_times() { times_ = {}; }
+  // As if no frame had been processed yet.
+  void begin_anew();
 
  private:
+  struct RectifyImages {
+    ImageView<std::int16_t> x, y;
+    ImageView<std::uint16_t> fraction;
+    RectifyMap view() const { return {x, y, fraction}; }
+  };
+
   // What lives in the arena, in the order in which it is taken.
   struct Buffers {
-    Buffers(const VehicleConfig& config, const RectifiedGeometry& camera, const KernelTable& kernels, Arena& arena);
+    Buffers(const VehicleConfig& config, const RectifiedGeometry& camera, bool remap, const KernelTable& kernels,
+            Arena& arena);
+    RectifyImages map_left, map_right;  // empty where the images are rectified already
     ImageView<std::uint8_t> left, right;
     Matcher matcher;
     ImageView<PixelClass> classes;
@@ -70,6 +85,7 @@ class Pipeline {
     std::span<PolarEntry> polar_table;
   };
 
+  void make_maps(const StereoCalibration& calibration);
   Status rectify(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, FrameResult& result);
   Status find_ground(FrameResult& result);
   Status project_and_bin(FrameResult& result);
@@ -82,7 +98,6 @@ class Pipeline {
   std::int32_t min_height_mm_;
   double blind_zone_m_;
   bool remap_;
-  RectifyMaps maps_left_, maps_right_;
   Arena arena_;
   std::unique_ptr<Buffers> buffers_;
   PruneModel mount_model_;

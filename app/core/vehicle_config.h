@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/core/device_config.h"
+#include "app/core/loop_config.h"
 #include "app/nav/params.h"
 
 namespace lakshya {
@@ -17,6 +18,7 @@ struct CameraConfig {
   double yaw_deg = 0.0;             // positive to the left
   double forward_m = 0.0;           // camera in front of the turning centre
   double left_m = 0.0;              // camera to the left of the turning centre
+  std::string calibration = {};     // path; empty: the recorded sequence's own
   double calibration_unit_m = 1.0;  // length of one unit of T in an OpenCV calibration file
 };
 
@@ -91,6 +93,10 @@ struct VehicleConfig {
   OdometryConfig odometry;
   EstopConfig estop;
   WatchdogConfig watchdog;
+  MissionConfig mission;
+  LoopConfig loop;
+  SafetyConfig safety;
+  MemoryConfig memory;
 };
 
 }  // namespace lakshya

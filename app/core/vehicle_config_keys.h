@@ -9,6 +9,7 @@
 
 #include "app/core/config_key.h"
 #include "app/core/device_config_keys.h"
+#include "app/core/loop_config_keys.h"
 #include "app/core/vehicle_config.h"
 #include "app/nav/vfh.h"
 
@@ -23,7 +24,7 @@ struct Group {
   std::string_view name;
   std::string_view meaning;
 };
-inline constexpr std::array<Group, 20> kGroups{{
+inline constexpr std::array<Group, 24> kGroups{{
     {"camera", "Mount of the left camera, relative to the ground under the wheels and to the turning centre"},
     {"matcher", "From the rectified pair to disparities"},
     {"prune", "Which points matter: depth, floor and ceiling"},
@@ -45,6 +46,10 @@ inline constexpr std::array<Group, 20> kGroups{{
     {"odometry", "The pose from the wheels' travel and the compass"},
     {"estop", "Emergency stop drivers file and gpio"},
     {"watchdog", "Watchdog driver linux"},
+    {"mission", "Where to go"},
+    {"loop", "The main loop"},
+    {"safety", "When the main loop stops the wheels (docs/safety.md)"},
+    {"memory", "The main loop's memory"},
 }};
 
 // A profile is a list of overrides, as text: what --set would say.
@@ -91,6 +96,10 @@ void visit_camera_keys(Camera& c, Visitor& v) {
     Range{-5, 5});
   v(Key{"camera.left_m", "m", "How far the left camera is to the left of the turning centre"}, c.left_m,
     Range{-5, 5});
+  v(Key{"camera.calibration", "",
+        "Calibration: one file, left and right file with a comma between, or a folder, seen from vehicle.yaml's folder; "
+        "empty: the recorded sequence's own"},
+    c.calibration, Text{});
   v(Key{"camera.calibration_unit_m", "m",
         "Length of one unit of T in an OpenCV calibration file (0.001: millimetres)"},
     c.calibration_unit_m, Range{0.0001, 10});
@@ -277,6 +286,7 @@ void visit_keys(Config& c, Visitor&& v) {
   visit_planner_keys(c.planner, v);
   visit_vehicle_keys(c.vehicle, v);
   visit_device_keys(c, v);
+  visit_main_loop_keys(c, v);
 }
 
 }  // namespace lakshya

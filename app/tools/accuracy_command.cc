@@ -10,7 +10,7 @@
 #include "app/core/vehicle_config_file.h"
 #include "app/core/vehicle_config_keys.h"
 #include "app/tools/accuracy_report.h"
-#include "app/tools/options.h"
+#include "app/lakshyad/options.h"
 #include "app/tools/output_folder.h"
 #include "app/tools/progress.h"
 

@@ -10,7 +10,7 @@
 #include "app/tools/compare_pairs.h"
 #include "app/tools/compare_report.h"
 #include "app/tools/compare_tables.h"
-#include "app/tools/options.h"
+#include "app/lakshyad/options.h"
 #include "app/tools/stereo_input.h"
 
 namespace lakshya {

@@ -6,7 +6,7 @@
 #include "app/core/file_bytes.h"
 #include "app/core/image_file.h"
 #include "app/core/input_error.h"
-#include "app/tools/options.h"
+#include "app/lakshyad/options.h"
 
 namespace lakshya {
 namespace {

@@ -15,7 +15,7 @@
 #include "app/core/input_error.h"
 #include "app/core/vehicle_config_file.h"
 #include "app/core/vehicle_config_text.h"
-#include "app/tools/options.h"
+#include "app/lakshyad/options.h"
 #include "app/tools/progress.h"
 #include "hal/clock/monotonic_clock.h"
 

@@ -6,7 +6,7 @@
 
 #include "app/core/vehicle_config_file.h"
 #include "app/core/vehicle_config_text.h"
-#include "app/tools/options.h"
+#include "app/lakshyad/options.h"
 
 namespace lakshya {
 namespace {

@@ -15,7 +15,7 @@
 #include "app/core/vehicle_config_file.h"
 #include "app/tools/device_check.h"
 #include "app/tools/device_list.h"
-#include "app/tools/options.h"
+#include "app/lakshyad/options.h"
 #include "hal/clock/monotonic_clock.h"
 
 namespace lakshya {

@@ -14,7 +14,7 @@
 #include "app/nav/planner.h"
 #include "app/nav/sectors.h"
 #include "app/tools/map_file.h"
-#include "app/tools/options.h"
+#include "app/lakshyad/options.h"
 #include "app/tools/plan_report.h"
 
 namespace lakshya {

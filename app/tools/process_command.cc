@@ -18,7 +18,7 @@
 #include "app/core/vehicle_config_text.h"
 #include "app/tools/disparity_file.h"
 #include "app/tools/map_file.h"
-#include "app/tools/options.h"
+#include "app/lakshyad/options.h"
 #include "app/tools/output_folder.h"
 #include "app/tools/pictures.h"
 #include "app/tools/process_report.h"

@@ -10,7 +10,7 @@
 #include "app/core/file_bytes.h"
 #include "app/core/input_error.h"
 #include "app/core/vehicle_config_file.h"
-#include "app/tools/options.h"
+#include "app/lakshyad/options.h"
 #include "app/tools/profile_report.h"
 #include "app/tools/profile_run.h"
 #include "app/tools/profile_trace.h"

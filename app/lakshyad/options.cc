@@ -1,4 +1,4 @@
-#include "app/tools/options.h"
+#include "app/lakshyad/options.h"
 
 #include "app/core/input_error.h"
 #include "kernels/base/isa.h"

@@ -1,0 +1,103 @@
+// The third thread's work, 50 times a second: where are we, is all well, what are the wheels told?
+//
+// One turn: read the compass, the emergency stop and what capture and perception have handed over; step through the table of
+// states (safety_table.h); command the wheels; read their travel. It never waits for perception; the drives are waited for until
+// the deadline that they are given.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "app/core/stage_times.h"
+#include "app/core/vehicle_config.h"
+#include "app/loop/drive_schedule.h"
+#include "app/loop/messages.h"
+#include "app/loop/safety_machine.h"
+#include "app/nav/steering.h"
+#include "app/nav/way_point.h"
+#include "hal/clock.h"
+#include "hal/compass.h"
+#include "hal/estop.h"
+#include "hal/odometry/wheel_odometry.h"
+#include "hal/servo.h"
+
+namespace lakshya {
+
+inline constexpr Nanoseconds kControlPeriod = 20 * kMillisecond;
+
+struct ControlDevices {
+  Servo* servo = nullptr;
+  Compass* compass = nullptr;        // null: none
+  EmergencyStop* estop = nullptr;  // null: none
+};
+
+// What there is to say when all is over.
+struct ControlCounts {
+  std::uint64_t turns = 0;
+  std::uint64_t overruns = 0;  // turns that took longer than their period
+  std::array<std::uint64_t, kEvents> faults{};  // how often each began
+  TimeHistogram lateness;      // of a turn's beginning
+  TimeHistogram took;
+};
+
+class Control {
+ public:
+  // The devices are open and outlive it, as do clock and exchange.
+  Control(const VehicleConfig& config, std::vector<WayPoint> way_points, const ControlDevices& devices, Clock& clock,
+          Exchange& exchange);
+
+  // The turn that was due at `due`. False: it was the last one, the wheels have got their last zero.
+  bool turn(Nanoseconds due);
+
+  // From a test or a report, when no turn is running.
+  State state() const { return machine_.state(); }
+  const ControlCounts& counts() const { return counts_; }
+  std::uint64_t plans() const { return plans_; }
+
+ private:
+  void read_compass(Nanoseconds now);
+  void read_estop();
+  void take_frame(Nanoseconds now);
+  void take_plan();
+  void judge_camera(Nanoseconds now);
+  void judge_plan(Nanoseconds now);
+  Conditions judge(Nanoseconds now, Nanoseconds due);
+  bool find_goal();
+  WheelVelocities wanted(Action action) const;
+  void command(Action action, Nanoseconds now, Nanoseconds due);
+  void judge_drive();
+  void read_travel(Nanoseconds now, Nanoseconds due);
+  void tell(Nanoseconds now, bool has_new_plan);
+  double direction_now() const;
+
+  const VehicleConfig config_;
+  const std::vector<WayPoint> way_points_;
+  const ControlDevices devices_;
+  Clock* clock_;
+  Exchange* exchange_;
+  SafetyMachine machine_;
+  WheelOdometry odometry_;
+  DriveSchedule schedule_;
+  EventSet faults_;
+  PoseSample pose_;
+  std::size_t way_point_ = 0;
+  double target_ = 0;
+  bool has_goal_ = false;
+
+  FrameNote frame_;
+  std::uint64_t damaged_ = 0;       // of frame_, when it was last looked at
+  double same_since_m_ = 0;         // travel when the pairs began to be the same
+  std::optional<PlanNote> plan_;
+  std::uint64_t plans_ = 0;
+  std::optional<Nanoseconds> heading_time_;
+  WheelTravel travel_;
+  Status command_status_ = Status::ok;  // of the newest exchanges with the drives
+  Status travel_status_ = Status::ok;
+  double way_m_ = 0;                // both wheels' way, without sign
+  WheelVelocities wheels_;          // as last commanded
+  ControlCounts counts_;
+};
+
+}  // namespace lakshya

@@ -1,0 +1,92 @@
+#include "app/loop/recorder.h"
+
+#include <fcntl.h>
+#include <spdlog/fmt/fmt.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "app/core/image_file.h"
+#include "app/core/input_error.h"
+#include "app/loop/map_picture.h"
+#include "hal/angle.h"
+
+namespace lakshya {
+namespace {
+
+double seconds(Nanoseconds t) {
+  return static_cast<double>(t) / static_cast<double>(kSecond);
+}
+
+double in_degrees(double rad) {
+  return rad / kRadiansPerDegree;
+}
+
+}  // namespace
+
+std::string decision_line(const Decision& d, Nanoseconds start) {
+  const PlanNote& p = d.plan;
+  std::string line = fmt::format(
+      R"({{"frame":{},"taken_s":{:.6f},"time_s":{:.6f},"latency_ms":{:.3f},"status":"{}","state":"{}","reason":"{}",)", p.number,
+      seconds(p.taken - start), seconds(d.time - start), seconds(p.done - p.taken) * 1e3, to_string(p.status),
+      to_string(d.state), d.reason == Event::all_well ? "" : to_string(d.reason));
+  line += fmt::format(
+      R"("target_deg":{:.3f},"blocked":{},"direction_deg":{:.3f},"recovery":"{}","clear_m":{:.3f},"clear_end":"{}",)"
+      R"("speed_mps":{:.4f},"nearest_m":{:.3f},"obstacle_cells":{},"ground_pitch_deg":{:.4f},)",
+      in_degrees(p.target), p.blocked, in_degrees(p.direction), p.recovery == Side::left ? "left" : "right", p.clear_m,
+      p.clear_end == ClearEnd::obstacle ? "obstacle" : "unknown", p.speed_mps, p.nearest_m, p.obstacles,
+      p.ground_pitch_deg);
+  line += fmt::format(
+      R"("pose":{{"east_m":{:.4f},"north_m":{:.4f},"yaw_deg":{:.3f}}},"wheels":{{"left_mps":{:.4f},"right_mps":{:.4f}}}}})"
+      "\n",
+      d.pose.east_m, d.pose.north_m, in_degrees(d.pose.yaw), d.wheels.left_mps, d.wheels.right_mps);
+  return line;
+}
+
+Recorder::Recorder(const std::string& folder, std::uint64_t picture_every)
+    : folder_(folder), picture_every_(picture_every) {
+  if (folder.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw InputError(folder, "cannot be made: " + error.message() + " (choose another --out)");
+  const std::string path = folder + "/decisions.jsonl";
+  fd_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (fd_ < 0) throw InputError(path, std::string("cannot be written: ") + std::strerror(errno) + " (choose another --out)");
+}
+
+Recorder::~Recorder() {
+  if (fd_ >= 0) (void)::close(fd_);
+}
+
+void Recorder::fail(const std::string& why) {
+  failed_ = true;
+  problem_ = why;
+}
+
+bool Recorder::write(const Decision& decision, Nanoseconds start) {
+  if (!is_on() || failed_) return !failed_;
+  const std::string line = decision_line(decision, start);
+  const ssize_t written = ::write(fd_, line.data(), line.size());
+  if (written == static_cast<ssize_t>(line.size())) return true;
+  fail(folder_ + "/decisions.jsonl: " + std::strerror(written < 0 ? errno : ENOSPC));
+  // No half line stays.
+  if (written > 0) {
+    const off_t end = ::lseek(fd_, 0, SEEK_END);
+    if (end >= written) (void)!::ftruncate(fd_, end - written);
+  }
+  return false;
+}
+
+bool Recorder::write_map(ImageView<const std::uint8_t> type, const PlanNote& plan, const VehicleConfig& config) {
+  if (!is_on() || failed_) return !failed_;
+  try {
+    write_png(fmt::format("{}/map_{:06}.png", folder_, plan.number), loop_map_picture(type, plan, config).view());
+  } catch (const InputError& e) {
+    fail(e.what());
+  }
+  return !failed_;
+}
+
+}  // namespace lakshya

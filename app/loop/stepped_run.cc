@@ -1,0 +1,106 @@
+#include "app/loop/stepped_run.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/loop/memory_watch.h"
+
+namespace lakshya {
+namespace {
+
+// Plans that are made and not due yet, oldest first. The longest latency at the fastest camera is many; those who ask for that
+// lose the newest.
+class PendingPlans {
+ public:
+  bool empty() const { return begin_ == end_; }
+  bool full() const { return end_ - begin_ == plans_.size(); }
+  void push(const PlanNote& plan) {
+    if (!full()) plans_[end_++ % plans_.size()] = plan;
+  }
+  const PlanNote& front() const { return plans_[begin_ % plans_.size()]; }
+  void pop() { ++begin_; }
+
+ private:
+  std::array<PlanNote, 256> plans_;
+  std::size_t begin_ = 0;
+  std::size_t end_ = 0;
+};
+
+class SteppedRun {
+ public:
+  SteppedRun(Machinery& machinery, SteppedClock& clock, const RunLimits& limits)
+      : m_(&machinery),
+        clock_(&clock),
+        limits_(limits),
+        latency_(std::llround(machinery.config().loop.virtual_latency_s * static_cast<double>(kSecond))),
+        decodes_(machinery.capture_decodes() ? WatchedPlace::decoding : WatchedPlace::loop) {}
+
+  void run(const std::function<void()>& after_turn) {
+    Nanoseconds due = clock_->now();
+    for (bool goes_on = true; goes_on; due += kControlPeriod) {
+      capture_until(due);
+      goes_on = control(due);
+      if (!memory_watch_armed() && m_->control().state() >= State::ready) arm_memory_watch();
+      after_turn();
+    }
+  }
+
+ private:
+  // All pairs that come until the control turn, each with its plan.
+  void capture_until(Nanoseconds due) {
+    while (!over_ && clock_->now() < due) {
+      const Status status = capture(due);
+      if (status == Status::ok) {
+        process();
+      } else if (status == Status::end_of_data) {
+        over_ = true;
+      } else if (status != Status::timeout) {
+        clock_->sleep_until(std::min(due, clock_->now() + kMillisecond));  // a camera that fails at once
+      }
+    }
+    clock_->sleep_until(due);
+  }
+
+  Status capture(Nanoseconds due) {
+    const MemoryWatch counted(decodes_);
+    return m_->capture().step(due);
+  }
+
+  void process() {
+    const MemoryWatch counted(WatchedPlace::loop);
+    PlanNote plan;
+    if (!m_->perception().step(plan)) return;
+    plan.done = plan.taken + latency_;
+    pending_.push(plan);
+    if (limits_.frames > 0 && m_->perception().frames() >= limits_.frames) over_ = true;
+  }
+
+  bool control(Nanoseconds due) {
+    const MemoryWatch counted(WatchedPlace::loop);
+    for (; !pending_.empty() && pending_.front().done <= due; pending_.pop())
+      m_->perception().publish(pending_.front());
+    const bool goes_on = m_->control().turn(due);
+    // The turn that has taken up the last plan is the last but one.
+    if (over_ && pending_.empty()) m_->exchange().terminate.store(true);
+    return goes_on;
+  }
+
+  Machinery* m_;
+  SteppedClock* clock_;
+  const RunLimits limits_;
+  const Nanoseconds latency_;
+  const WatchedPlace decodes_;
+  PendingPlans pending_;
+  bool over_ = false;
+};
+
+}  // namespace
+
+void run_stepped(Machinery& machinery, SteppedClock& clock, const RunLimits& limits,
+                 const std::function<void()>& after_turn) {
+  machinery.perception().warm_up();
+  SteppedRun(machinery, clock, limits).run(after_turn);
+}
+
+}  // namespace lakshya

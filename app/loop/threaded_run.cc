@@ -1,0 +1,216 @@
+#include "app/loop/threaded_run.h"
+
+#include <omp.h>
+#include <spdlog/spdlog.h>
+#include <sys/eventfd.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <exception>
+
+#include "app/core/input_error.h"
+#include "app/loop/memory_watch.h"
+#include "app/loop/real_time.h"
+
+namespace lakshya {
+namespace {
+
+constexpr Nanoseconds kWait = 50 * kMillisecond;  // of threads that have nothing to do
+
+// A file descriptor that is closed again.
+class Descriptor {
+ public:
+  Descriptor(int fd, const char* what) : fd_(fd) {
+    if (fd < 0) throw InputError(what, "the system gives no descriptor");
+  }
+  ~Descriptor() { (void)::close(fd_); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+// The signals come to one descriptor, and to no thread.
+class Signals {
+ public:
+  Signals() : fd_(make(), "signals") {}
+  ~Signals() { (void)pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  Signals(const Signals&) = delete;
+  Signals& operator=(const Signals&) = delete;
+
+  // Waits for one until `deadline`; 0: none came.
+  int wait(Clock& clock, Nanoseconds deadline) const {
+    if (clock.wait_for(fd_.get(), Ready::to_read, deadline) != Status::ok) return 0;
+    signalfd_siginfo info{};
+    return ::read(fd_.get(), &info, sizeof info) == sizeof info ? static_cast<int>(info.ssi_signo) : 0;
+  }
+
+ private:
+  int make() {
+    sigset_t wanted;
+    sigemptyset(&wanted);
+    for (const int signal : {SIGINT, SIGTERM, SIGUSR1})
+      sigaddset(&wanted, signal);
+    (void)pthread_sigmask(SIG_BLOCK, &wanted, &before_);
+    return signalfd(-1, &wanted, SFD_NONBLOCK | SFD_CLOEXEC);
+  }
+
+  sigset_t before_{};
+  Descriptor fd_;
+};
+
+class ThreadedRun {
+ public:
+  ThreadedRun(Machinery& machinery, Clock& clock, const RunLimits& limits, const ThreadedHooks& hooks)
+      : m_(&machinery), x_(&machinery.exchange()), clock_(&clock), limits_(limits), hooks_(&hooks) {}
+
+  void run() {
+    const Signals signals;
+    Thread perception("perception", kOrdinary, [this] { perceive(); });
+    Thread capture("capture", kCapturePriority, [this] { capture_all(); });
+    Thread control("control", kControlPriority, [this] { control_all(); });
+    bool warned = false;
+    while (!x_->ended.load(std::memory_order_acquire)) {
+      const int signal = signals.wait(*clock_, clock_->now() + kWait);
+      if (signal == SIGUSR1) x_->reset.store(true);
+      if (signal == SIGINT || signal == SIGTERM) {
+        spdlog::info("asked to end by {}", signal == SIGINT ? "SIGINT" : "SIGTERM");
+        x_->terminate.store(true);
+      }
+      if (!warned && (!capture.has_priority() || !control.has_priority())) {
+        spdlog::warn("no real-time priority (SCHED_FIFO): control turns may come late when the machine is busy (run as "
+                     "a service, or with CAP_SYS_NICE or LimitRTPRIO)");
+        warned = true;
+      }
+      kick_watchdogs();
+      end_with_the_recording();
+      keep_house();
+    }
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  // What fails here must not leave the wheels turning: the run ends in order first.
+  void keep_house() {
+    if (failure_) return;
+    try {
+      hooks_->housekeeping();
+    } catch (...) {
+      failure_ = std::current_exception();
+      x_->terminate.store(true);
+    }
+  }
+
+  Status capture_one(WatchedPlace place) {
+    const MemoryWatch watch(place);
+    return m_->capture().step(clock_->now() + kWait);
+  }
+
+  void capture_all() {
+    const WatchedPlace place = m_->capture_decodes() ? WatchedPlace::decoding : WatchedPlace::loop;
+    while (!x_->ended.load(std::memory_order_acquire)) {
+      const Status status = capture_one(place);
+      if (status == Status::ok) {
+        const std::uint64_t one = 1;
+        (void)!::write(new_pair_.get(), &one, sizeof one);
+      } else if (status == Status::end_of_data) {
+        over_.store(true, std::memory_order_release);
+        return;
+      } else if (status != Status::timeout) {
+        clock_->sleep_until(clock_->now() + 5 * kMillisecond);  // a camera that fails at once
+      }
+    }
+  }
+
+  bool perceive_one() {
+    const MemoryWatch watch(WatchedPlace::loop);
+    PlanNote plan;
+    if (!m_->perception().step(plan)) return false;
+    m_->perception().publish(plan);
+    return true;
+  }
+
+  void perceive() {
+    if (m_->config().loop.threads > 0) omp_set_num_threads(m_->config().loop.threads);
+    m_->perception().warm_up();
+    warm_.store(true, std::memory_order_release);
+    while (!x_->ended.load(std::memory_order_acquire)) {
+      if (clock_->wait_for(new_pair_.get(), Ready::to_read, clock_->now() + kWait) == Status::ok) {
+        std::uint64_t pairs = 0;
+        (void)!::read(new_pair_.get(), &pairs, sizeof pairs);
+      }
+      while (perceive_one()) {
+        if (limits_.frames > 0 && m_->perception().frames() >= limits_.frames) {
+          enough_.store(true, std::memory_order_release);
+          return;
+        }
+      }
+    }
+  }
+
+  bool turn(Nanoseconds due) {
+    const MemoryWatch watch(WatchedPlace::loop);
+    return m_->control().turn(due);
+  }
+
+  void control_all() {
+    while (!warm_.load(std::memory_order_acquire))
+      clock_->sleep_until(clock_->now() + kMillisecond);
+    Nanoseconds due = clock_->now();
+    while (turn(due)) {
+      turns_.fetch_add(1, std::memory_order_release);
+      if (!memory_watch_armed() && m_->control().state() >= State::ready) arm_memory_watch();
+      due += kControlPeriod;
+      // Turns that are over already are left out; they were counted as late.
+      const Nanoseconds now = clock_->now();
+      if (now > due + kControlPeriod) due += (now - due) / kControlPeriod * kControlPeriod;
+      clock_->sleep_until(due);
+    }
+  }
+
+  void kick_watchdogs() {
+    const std::uint64_t turns = turns_.load(std::memory_order_acquire);
+    if (turns == kicked_at_) return;  // the control loop hangs: let them act
+    kicked_at_ = turns;
+    bool well = true;
+    for (Watchdog* watchdog : hooks_->watchdogs)
+      well = watchdog->kick() == Status::ok && well;
+    x_->watchdog_failed.store(!well, std::memory_order_release);
+  }
+
+  // The plan of the last pair must have reached control, and control had a turn with it.
+  void end_with_the_recording() {
+    const bool idle = over_.load(std::memory_order_acquire) && x_->working_since.load(std::memory_order_acquire) == 0;
+    if (!idle && !enough_.load(std::memory_order_acquire)) {
+      idle_turns_ = turns_.load();
+      return;
+    }
+    if (turns_.load() > idle_turns_ + 5) x_->terminate.store(true);
+  }
+
+  Machinery* m_;
+  Exchange* x_;
+  Clock* clock_;
+  const RunLimits limits_;
+  const ThreadedHooks* hooks_;
+  Descriptor new_pair_{eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC), "eventfd"};
+  std::atomic<bool> over_ = false;    // the recording
+  std::atomic<bool> enough_ = false;  // frames
+  std::atomic<bool> warm_ = false;
+  std::atomic<std::uint64_t> turns_ = 0;
+  std::exception_ptr failure_;
+  std::uint64_t kicked_at_ = 0;
+  std::uint64_t idle_turns_ = 0;
+};
+
+}  // namespace
+
+void run_threaded(Machinery& machinery, Clock& clock, const RunLimits& limits, const ThreadedHooks& hooks) {
+  ThreadedRun(machinery, clock, limits, hooks).run();
+}
+
+}  // namespace lakshya
