@@ -22,14 +22,14 @@ struct LoopConfig {
 };
 
 struct SafetyConfig {
-  double camera_silent_s = 0.16;
-  double compass_silent_s = 0.16;
-  double perception_s = 0.15;
+  double camera_silent_s = 0.14;
+  double compass_silent_s = 0.14;
+  double perception_s = 0.14;
   double plan_age_s = 0.25;
   double control_late_s = 0.06;
   double skew_s = 0.01;
   int frozen_pairs = 2;
-  double frozen_travel_m = 0.02;
+  double frozen_travel_m = 0.005;
   int dark_level = 8;
   double dark_share = 0.98;
   int bright_level = 250;

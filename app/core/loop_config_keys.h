@@ -21,7 +21,8 @@ void visit_mission_keys(Mission& c, Visitor& v) {
   v(Key{"mission.way_points", "",
         "File of way points (README, \"Way points\"); empty: always in the direction direction_deg"},
     c.way_points, Text{});
-  v(Key{"mission.arrival_m", "m", "A way point that is nearer than this is reached"}, c.arrival_m, Range{0.05, 100});
+  v(Key{"mission.arrival_m", "m", "A way point that is nearer than this is reached"}, c.arrival_m,
+    Range{0.05, 100});
   v(Key{"mission.direction_deg", "deg", "Without way points: where to go, to the left of straight ahead"},
     c.direction_deg, Range{-180, 180});
 }
@@ -39,7 +40,8 @@ void visit_loop_keys(Loop& c, Visitor& v) {
 
 template <class Safety, class Visitor>
 void visit_safety_keys(Safety& c, Visitor& v) {
-  v(Key{"safety.camera_silent_s", "s", "Stop when no pair has come for so long"}, c.camera_silent_s, Range{0.02, 10});
+  v(Key{"safety.camera_silent_s", "s", "Stop when no pair has come for so long"}, c.camera_silent_s,
+    Range{0.02, 10});
   v(Key{"safety.compass_silent_s", "s", "Stop when no heading has come for so long"}, c.compass_silent_s,
     Range{0.02, 10});
   v(Key{"safety.perception_s", "s", "Stop when one pair has been worked on for so long"}, c.perception_s,
@@ -48,12 +50,16 @@ void visit_safety_keys(Safety& c, Visitor& v) {
     Range{0.02, 10});
   v(Key{"safety.control_late_s", "s", "Stop when the control loop began a turn so late"}, c.control_late_s,
     Range{0.001, 10});
-  v(Key{"safety.skew_s", "s", "Stop when the two images of a pair were taken further apart"}, c.skew_s, Range{0, 1});
-  v(Key{"safety.frozen_pairs", "", "Stop when so many pairs in a row are the same, byte for byte, while the wheels turn"},
+  v(Key{"safety.skew_s", "s", "Stop when the two images of a pair were taken further apart"}, c.skew_s,
+    Range{0, 1});
+  v(Key{"safety.frozen_pairs", "",
+        "Stop when so many pairs in a row are the same, byte for byte, while the wheels turn"},
     c.frozen_pairs, Range{2, 100, 1});
-  v(Key{"safety.frozen_travel_m", "m", "How far the wheels must have gone meanwhile"}, c.frozen_travel_m, Range{0, 1});
+  v(Key{"safety.frozen_travel_m", "m", "How far the wheels must have gone meanwhile"}, c.frozen_travel_m,
+    Range{0, 1});
   v(Key{"safety.dark_level", "", "A pixel of at most this brightness is black"}, c.dark_level, Range{0, 255, 1});
-  v(Key{"safety.dark_share", "", "Stop when so large a part of either image is black"}, c.dark_share, Range{0.01, 1});
+  v(Key{"safety.dark_share", "", "Stop when so large a part of either image is black"}, c.dark_share,
+    Range{0.01, 1});
   v(Key{"safety.bright_level", "", "A pixel of at least this brightness is saturated"}, c.bright_level,
     Range{0, 255, 1});
   v(Key{"safety.bright_share", "", "Stop when so large a part of either image is saturated"}, c.bright_share,

@@ -138,9 +138,8 @@ Pipeline::Pipeline(const VehicleConfig& config, const StereoCalibration& calibra
 }
 
 void Pipeline::make_maps(const StereoCalibration& calibration) {
-  const Rectification r = calibration.rectification
-                              ? *calibration.rectification
-                              : rectify_stereo(calibration, camera_.width, camera_.height);
+  const Rectification r = calibration.rectification ? *calibration.rectification
+                                                    : rectify_stereo(calibration, camera_.width, camera_.height);
   const auto make = [this](const CameraModel& camera, const Eigen::Matrix3d& rotation,
                            const Eigen::Matrix<double, 3, 4>& projection, const RectifyImages& to) {
     const RectifyMaps maps = make_rectify_maps(camera, rotation, projection, camera_.width, camera_.height);

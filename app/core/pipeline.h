@@ -43,8 +43,8 @@ class Pipeline {
            const KernelTable& kernels, const Clock& clock, Arena memory = {});
 
   // What the pipeline will take for images of that size; depends on the number of OpenMP's threads.
-  static std::size_t memory_bytes(const VehicleConfig& config, const StereoCalibration& calibration, int width, int height,
-                                  const KernelTable& kernels);
+  static std::size_t memory_bytes(const VehicleConfig& config, const StereoCalibration& calibration, int width,
+                                  int height, const KernelTable& kernels);
 
   // left, right: raw images of the size given at the start.
   Status process(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, const PlanInput& input,

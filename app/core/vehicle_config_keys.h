@@ -97,7 +97,8 @@ void visit_camera_keys(Camera& c, Visitor& v) {
   v(Key{"camera.left_m", "m", "How far the left camera is to the left of the turning centre"}, c.left_m,
     Range{-5, 5});
   v(Key{"camera.calibration", "",
-        "Calibration: one file, left and right file with a comma between, or a folder, seen from vehicle.yaml's folder; "
+        "Calibration: one file, left and right file with a comma between, or a folder, seen from vehicle.yaml's "
+        "folder; "
         "empty: the recorded sequence's own"},
     c.calibration, Text{});
   v(Key{"camera.calibration_unit_m", "m",

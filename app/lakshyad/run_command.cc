@@ -29,17 +29,20 @@ struct LoopOptions {
 void add_loop_options(CLI::App& command, LoopOptions& o) {
   add_config_options(command, o.config);
   add_kernel_options(command, o.kernels);
-  command.add_option("--way-points", o.way_points, "File of way points (key mission.way_points)")->type_name("FILE");
+  command.add_option("--way-points", o.way_points, "File of way points (key mission.way_points)")
+      ->type_name("FILE");
   command
       .add_option("--target", o.target_deg,
                   "Without way points: where to go, degrees to the left of straight ahead (mission.direction_deg)")
       ->check(angle_in_degrees());
-  command.add_option("--frames", o.session.limits.frames, "End after so many frames; 0: with the recording, or never");
+  command.add_option("--frames", o.session.limits.frames,
+                     "End after so many frames; 0: with the recording, or never");
   command.add_option("--report", o.session.report, "Write the report (JSON) here")->type_name("FILE");
   command.add_option("--out", o.session.out, "Record into this folder: decisions.jsonl and pictures of the map")
       ->type_name("DIR");
-  command.add_option("--picture-every", o.session.picture_every,
-                     "With --out: a picture of the map for every so many frames; 0: none")
+  command
+      .add_option("--picture-every", o.session.picture_every,
+                  "With --out: a picture of the map for every so many frames; 0: none")
       ->capture_default_str();
   command.add_flag("--json", o.session.json, "Print the report as JSON");
 }
@@ -80,14 +83,16 @@ void set_rate(const std::string& rate, VehicleConfig& config, SessionOptions& se
 
 // No vehicle: recorded pairs instead of a camera, and nobody's wheels.
 void take_source(const ReplayOptions& o, VehicleConfig& config) {
-  config.drivers = {.camera = "folder", .servo = "record", .unsupervised_speed_mps = config.drivers.unsupervised_speed_mps};
+  config.drivers = {
+      .camera = "folder", .servo = "record", .unsupervised_speed_mps = config.drivers.unsupervised_speed_mps};
   const bool two = o.source.size() == 2;
   config.folder.path = two ? "" : o.source[0];
   config.folder.left = two ? o.source[0] : "";
   config.folder.right = two ? o.source[1] : "";
   config.camera.calibration.clear();
   for (const std::string& path : o.calibration)
-    config.camera.calibration += (config.camera.calibration.empty() ? "" : ",") + std::filesystem::absolute(path).string();
+    config.camera.calibration +=
+        (config.camera.calibration.empty() ? "" : ",") + std::filesystem::absolute(path).string();
   const auto pairs = static_cast<std::uint64_t>(RecordedFolder(config.folder).count());
   config.folder.repeat = o.loop.session.limits.frames > pairs ? "yes" : "no";
 }
@@ -108,7 +113,8 @@ void add_run_command(CLI::App& app, char** argv) {
   auto o = std::make_shared<LoopOptions>();
   auto print_states = std::make_shared<bool>(false);
   o->session.picture_every = 10;
-  CLI::App* command = app.add_subcommand("run", "Drive: camera to wheels, on the devices that the configuration names");
+  CLI::App* command =
+      app.add_subcommand("run", "Drive: camera to wheels, on the devices that the configuration names");
   add_loop_options(*command, *o);
   command->add_flag("--print-states", *print_states, "Print the table of states and events, and do nothing else");
   command->footer(
@@ -141,9 +147,10 @@ void add_replay_command(CLI::App& app, char** argv) {
                    "Calibration file, two files, or a folder; default: camera.calibration, else the sequence's own")
       ->expected(1, 2)
       ->type_name("FILE");
-  command->add_option("--rate", o->rate,
-                      "max: as fast as it goes, on a virtual clock, the same result on any machine; real: at the "
-                      "recording's times; or pairs per second")
+  command
+      ->add_option("--rate", o->rate,
+                   "max: as fast as it goes, on a virtual clock, the same result on any machine; real: at the "
+                   "recording's times; or pairs per second")
       ->capture_default_str()
       ->type_name("max|real|HZ");
   add_loop_options(*command, o->loop);

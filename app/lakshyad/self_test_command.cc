@@ -69,7 +69,8 @@ bool equal(ImageView<T> a, ImageView<T> b) {
 bool equal(const FrameResult& a, const FrameResult& b) {
   return equal(a.left, b.left) && equal(a.disparity, b.disparity) && equal(a.classes, b.classes) &&
          equal(a.grid.count, b.grid.count) && equal(a.grid.floor_count, b.grid.floor_count) &&
-         equal(a.grid.type, b.grid.type) && a.plan.histogram == b.plan.histogram && a.plan.speed_mps == b.plan.speed_mps;
+         equal(a.grid.type, b.grid.type) && a.plan.histogram == b.plan.histogram &&
+         a.plan.speed_mps == b.plan.speed_mps;
 }
 
 void self_test() {
@@ -87,7 +88,8 @@ void self_test() {
     if (use_isa(isa) != Status::ok) continue;
     Pipeline simd(config, camera, kWidth, kHeight, kSimdKernels, clock);
     FrameResult frame;
-    const bool same = simd.process(pair.left.view(), pair.right.view(), {}, frame) == Status::ok && equal(frame, expected);
+    const bool same =
+        simd.process(pair.left.view(), pair.right.view(), {}, frame) == Status::ok && equal(frame, expected);
     std::cout << isa << ": " << (same ? "equal to the reference" : "DIFFERS FROM THE REFERENCE") << '\n';
     well = well && same;
   }

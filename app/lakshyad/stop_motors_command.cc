@@ -26,7 +26,8 @@ void stop_motors(const ConfigOptions& o) {
   const Status stopped = servo.device->stop(clock.now() + kTime);
   servo.device->close();
   if (opened != Status::ok) throw InputError(name, std::string(to_string(opened)) + ": " + problem);
-  if (stopped != Status::ok) throw InputError(name, std::string(to_string(stopped)) + ": " + servo.device->problem());
+  if (stopped != Status::ok)
+    throw InputError(name, std::string(to_string(stopped)) + ": " + servo.device->problem());
   spdlog::info("the drives have confirmed zero speed");
 }
 

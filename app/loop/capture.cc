@@ -34,7 +34,8 @@ void Capture::look_at(const StereoFrame& frame) {
 Status Capture::step(Nanoseconds deadline) {
   StereoFrame frame;
   Status status = camera_->capture(deadline, frame);
-  if (status == Status::ok && !(same_size(frame.left, frame.right) && same_size(frame.left, exchange_->raw.writing().left)))
+  if (status == Status::ok &&
+      !(same_size(frame.left, frame.right) && same_size(frame.left, exchange_->raw.writing().left)))
     status = Status::bad_data;
   if (status == Status::ok) look_at(frame);
   if (status == Status::bad_data) ++note_.damaged;

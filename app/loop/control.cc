@@ -10,10 +10,10 @@
 namespace lakshya {
 namespace {
 
-// What a drive may take to confirm a command; its driver says so (hal/servo/quicksilver.h).
-constexpr Nanoseconds kDriveTime = 25 * kMillisecond;
-
-constexpr Nanoseconds kOldestTravel = 100 * kMillisecond;
+// Older news of the drives are as good as none: several exchanges on the slowest line.
+constexpr Nanoseconds kOldestNews = 150 * kMillisecond;
+// Turns after which the last zero is taken as said although the drives have not confirmed it.
+constexpr std::uint64_t kLastTurns = 8;
 
 Nanoseconds nanoseconds(double seconds) {
   return std::llround(seconds * static_cast<double>(kSecond));
@@ -42,22 +42,18 @@ Control::Control(const VehicleConfig& config, std::vector<WayPoint> way_points, 
       exchange_(&exchange),
       machine_(nanoseconds(config.safety.recover_s)),
       odometry_(odometry_settings(config)),
-      schedule_(kControlPeriod),
       target_(config.mission.direction_deg * kRadiansPerDegree) {}
 
-void Control::read_compass(Nanoseconds now) {
-  if (devices_.compass == nullptr) return;
-  // Several may have come since the last turn; more than a few are somebody's fault and must not hold the turn up.
-  constexpr int kMost = 8;
-  for (int i = 0; i < kMost; ++i) {
-    HeadingSample sample;
-    const Status status = devices_.compass->read(now, sample);
-    faults_.set(Event::compass_gone, status == Status::disconnected);
-    if (status != Status::ok) break;
-    heading_time_ = sample.time;
-    faults_.set(Event::compass_jumped, odometry_.add(sample) != Status::ok);
+void Control::take_headings(Nanoseconds now) {
+  if (!devices_.has_compass) return;
+  for (HeadingNote note; exchange_->headings.pop(note);) {
+    faults_.set(Event::compass_gone, note.status == Status::disconnected);
+    if (note.status != Status::ok) continue;
+    const HeadingSample& heading = note.sample;
+    heading_time_ = heading.time;
+    faults_.set(Event::compass_jumped, odometry_.add(heading) != Status::ok);
     const double limit = config_.safety.tilt_deg * kRadiansPerDegree;
-    faults_.set(Event::tipping, std::abs(sample.pitch) > limit || std::abs(sample.roll) > limit);
+    faults_.set(Event::tipping, std::abs(heading.pitch) > limit || std::abs(heading.roll) > limit);
   }
   faults_.set(Event::compass_silent,
               !heading_time_ || now - *heading_time_ > nanoseconds(config_.safety.compass_silent_s));
@@ -115,8 +111,11 @@ bool Control::find_goal() {
 }
 
 Conditions Control::judge(Nanoseconds now, Nanoseconds due) {
-  const Nanoseconds late = std::max<Nanoseconds>(now - due, 0);
-  counts_.lateness.add(late);
+  counts_.lateness.add(now - due);
+  // Turns that were missed are left out, so that the gap says more than the lateness.
+  const Nanoseconds gap = last_turn_ ? now - *last_turn_ - kControlPeriod : 0;
+  const Nanoseconds late = std::max(now - due, gap);
+  last_turn_ = now;
   faults_.set(Event::control_late, late > nanoseconds(config_.safety.control_late_s));
   const bool stops = config_.safety.recording_failed == "stop";
   const bool failed = exchange_->recording_failed.load(std::memory_order_acquire);
@@ -150,50 +149,51 @@ WheelVelocities Control::wanted(Action action) const {
   const WheelLimits limits{v.acceleration_mps2, v.deceleration_mps2};
   const double period_s = static_cast<double>(kControlPeriod) / static_cast<double>(kSecond);
   const WheelSpeeds next = limit_acceleration(wheels, {wheels_.left_mps, wheels_.right_mps}, limits, period_s);
-  return not_faster({next.left_mps, next.right_mps}, devices_.servo->max_speed_mps());
+  return not_faster({next.left_mps, next.right_mps}, devices_.max_speed_mps);
 }
 
-// Both exchanges with the drives must go well. A reading of the travel that was lost is not missed before the next but one.
-void Control::judge_drive() {
-  const bool old_travel = clock_->now() - travel_.time > kOldestTravel;
-  const Status travel = travel_status_ == Status::timeout && !old_travel ? Status::ok : travel_status_;
-  const auto either = [&](Status status) { return command_status_ == status || travel == status; };
-  faults_.set(Event::drive_silent, either(Status::timeout));
+// Command and reading must both go well. A reading that was lost is not missed as long as the one before is young.
+void Control::take_drive(Nanoseconds now) {
+  if (exchange_->drive.take()) {
+    const WheelTravel before = drive_.travel;
+    drive_ = exchange_->drive.reading();
+    const WheelTravel& travel = drive_.travel;
+    if (travel.time != before.time) {
+      way_m_ += (std::abs(travel.left_m - before.left_m) + std::abs(travel.right_m - before.right_m)) / 2;
+      (void)odometry_.add(travel);
+      (void)odometry_.pose(pose_);
+    }
+  }
+  const bool has_travel = now - drive_.travel.time <= kOldestNews;
+  const Status travel = drive_.travel_status == Status::timeout && has_travel ? Status::ok : drive_.travel_status;
+  const auto either = [&](Status status) { return drive_.command_status == status || travel == status; };
+  faults_.set(Event::drive_silent, either(Status::timeout) || now - drive_.time > kOldestNews);
   faults_.set(Event::drive_refused, either(Status::refused) || either(Status::unsupported));
   faults_.set(Event::drive_garbled, either(Status::bad_data) || either(Status::bad_argument));
   faults_.set(Event::drive_gone, either(Status::disconnected));
 }
 
-void Control::command(Action action, Nanoseconds now, Nanoseconds due) {
+void Control::command(Action action) {
   const WheelVelocities wheels = wanted(action);
   const bool halts = is_zero(wheels) && !is_zero(wheels_);
-  schedule_.begin(halts || action == Action::zero_and_end);
   wheels_ = wheels;
-  if (!schedule_.commands()) return;
-  const Nanoseconds deadline = std::max(now, due) + kDriveTime;
-  // A stop is as fast as the drives can, zero by drive() keeps those that are supervised from stopping by themselves.
-  const bool stops = halts || action == Action::zero_and_end || action == Action::zero_now;
-  command_status_ = stops ? devices_.servo->stop(deadline) : devices_.servo->drive(wheels, deadline);
-  judge_drive();
-  if (command_status_ != Status::ok && !stops) {
-    wheels_ = {};
-    (void)devices_.servo->stop(clock_->now() + kDriveTime);
-  }
-  schedule_.commanded(clock_->now() - now);
+  DriveCommand& command = exchange_->drive_command.writing();
+  command.wheels = wheels;
+  command.stops = halts || action == Action::zero_and_end || action == Action::zero_now;
+  command.number = ++commands_;
+  // A stop that driving has not taken yet is not replaced by a plain zero.
+  const bool waits = exchange_->drive_command.is_unread() && last_command_stops_ && is_zero(wheels);
+  command.stops = command.stops || waits;
+  last_command_stops_ = command.stops;
+  exchange_->drive_is_urgent.store(command.stops, std::memory_order_release);
+  (void)exchange_->drive_command.publish();
 }
 
-void Control::read_travel(Nanoseconds now, Nanoseconds due) {
-  if (!schedule_.reads()) return;
-  const Nanoseconds begin = clock_->now();
-  WheelTravel travel;
-  travel_status_ = devices_.servo->read_travel(std::max(now, due) + kDriveTime, travel);
-  schedule_.has_read(clock_->now() - begin);
-  judge_drive();
-  if (travel_status_ != Status::ok) return;
-  way_m_ += (std::abs(travel.left_m - travel_.left_m) + std::abs(travel.right_m - travel_.right_m)) / 2;
-  travel_ = travel;
-  (void)odometry_.add(travel);
-  (void)odometry_.pose(pose_);
+// The drives have confirmed the last zero, or had their time.
+bool Control::has_ended() const {
+  if (machine_.state() != State::end) return false;
+  const bool confirmed = drive_.number >= end_command_ && drive_.command_status == Status::ok;
+  return (end_turns_ > 1 && confirmed) || end_turns_ >= kLastTurns;
 }
 
 void Control::tell(Nanoseconds now, bool has_new_plan) {
@@ -230,27 +230,25 @@ void Control::tell(Nanoseconds now, bool has_new_plan) {
 bool Control::turn(Nanoseconds due) {
   const Nanoseconds now = clock_->now();
   ++counts_.turns;
-  read_compass(now);
+  take_headings(now);
   read_estop();
   take_frame(now);
   const bool has_new_plan = exchange_->plan.take();
   if (has_new_plan) take_plan();
   judge_plan(now);
+  take_drive(now);
   has_goal_ = find_goal();
   const Action action = machine_.step(now, judge(now, due));
   for (const StateNote& note : machine_.notes())
     ++counts_.faults[static_cast<std::size_t>(note.event)];
-  command(action, now, due);
+  command(action);
   tell(now, has_new_plan);
-  if (machine_.state() == State::end) {
-    exchange_->ended.store(true, std::memory_order_release);
-    return false;
-  }
-  read_travel(now, due);
-  const Nanoseconds took = clock_->now() - now;
-  counts_.took.add(took);
-  if (took > kControlPeriod) ++counts_.overruns;
-  return true;
+  counts_.took.add(clock_->now() - now);
+  if (clock_->now() - now > kControlPeriod) ++counts_.overruns;
+  if (machine_.state() == State::end && end_turns_++ == 0) end_command_ = commands_;
+  if (!has_ended()) return true;
+  exchange_->ended.store(true, std::memory_order_release);
+  return false;
 }
 
 }  // namespace lakshya

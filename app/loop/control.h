@@ -1,8 +1,7 @@
 // The third thread's work, 50 times a second: where are we, is all well, what are the wheels told?
 //
-// One turn: read the compass, the emergency stop and what capture and perception have handed over; step through the table of
-// states (safety_table.h); command the wheels; read their travel. It never waits for perception; the drives are waited for until
-// the deadline that they are given.
+// One turn: read the emergency stop and what the compass, capture, perception and driving have handed over; step through the table
+// of states (safety_table.h); hand over what the wheels shall do. It waits for nobody.
 #pragma once
 
 #include <array>
@@ -12,41 +11,38 @@
 
 #include "app/core/stage_times.h"
 #include "app/core/vehicle_config.h"
-#include "app/loop/drive_schedule.h"
 #include "app/loop/messages.h"
 #include "app/loop/safety_machine.h"
 #include "app/nav/steering.h"
 #include "app/nav/way_point.h"
 #include "hal/clock.h"
-#include "hal/compass.h"
 #include "hal/estop.h"
 #include "hal/odometry/wheel_odometry.h"
-#include "hal/servo.h"
 
 namespace lakshya {
 
 inline constexpr Nanoseconds kControlPeriod = 20 * kMillisecond;
 
 struct ControlDevices {
-  Servo* servo = nullptr;
-  Compass* compass = nullptr;        // null: none
+  double max_speed_mps = 0;  // the drives'
+  bool has_compass = false;
   EmergencyStop* estop = nullptr;  // null: none
 };
 
 // What there is to say when all is over.
 struct ControlCounts {
   std::uint64_t turns = 0;
-  std::uint64_t overruns = 0;  // turns that took longer than their period
+  std::uint64_t overruns = 0;                   // turns that took longer than their period
   std::array<std::uint64_t, kEvents> faults{};  // how often each began
-  TimeHistogram lateness;      // of a turn's beginning
+  TimeHistogram lateness;                       // of a turn's beginning
   TimeHistogram took;
 };
 
 class Control {
  public:
   // The devices are open and outlive it, as do clock and exchange.
-  Control(const VehicleConfig& config, std::vector<WayPoint> way_points, const ControlDevices& devices, Clock& clock,
-          Exchange& exchange);
+  Control(const VehicleConfig& config, std::vector<WayPoint> way_points, const ControlDevices& devices,
+          Clock& clock, Exchange& exchange);
 
   // The turn that was due at `due`. False: it was the last one, the wheels have got their last zero.
   bool turn(Nanoseconds due);
@@ -57,7 +53,7 @@ class Control {
   std::uint64_t plans() const { return plans_; }
 
  private:
-  void read_compass(Nanoseconds now);
+  void take_headings(Nanoseconds now);
   void read_estop();
   void take_frame(Nanoseconds now);
   void take_plan();
@@ -66,9 +62,9 @@ class Control {
   Conditions judge(Nanoseconds now, Nanoseconds due);
   bool find_goal();
   WheelVelocities wanted(Action action) const;
-  void command(Action action, Nanoseconds now, Nanoseconds due);
-  void judge_drive();
-  void read_travel(Nanoseconds now, Nanoseconds due);
+  void take_drive(Nanoseconds now);
+  void command(Action action);
+  bool has_ended() const;
   void tell(Nanoseconds now, bool has_new_plan);
   double direction_now() const;
 
@@ -79,24 +75,27 @@ class Control {
   Exchange* exchange_;
   SafetyMachine machine_;
   WheelOdometry odometry_;
-  DriveSchedule schedule_;
   EventSet faults_;
   PoseSample pose_;
   std::size_t way_point_ = 0;
   double target_ = 0;
   bool has_goal_ = false;
 
+  std::optional<Nanoseconds> last_turn_;
+
   FrameNote frame_;
-  std::uint64_t damaged_ = 0;       // of frame_, when it was last looked at
-  double same_since_m_ = 0;         // travel when the pairs began to be the same
+  std::uint64_t damaged_ = 0;  // of frame_, when it was last looked at
+  double same_since_m_ = 0;    // travel when the pairs began to be the same
   std::optional<PlanNote> plan_;
   std::uint64_t plans_ = 0;
   std::optional<Nanoseconds> heading_time_;
-  WheelTravel travel_;
-  Status command_status_ = Status::ok;  // of the newest exchanges with the drives
-  Status travel_status_ = Status::ok;
-  double way_m_ = 0;                // both wheels' way, without sign
-  WheelVelocities wheels_;          // as last commanded
+  DriveNote drive_;
+  std::uint64_t commands_ = 0;
+  bool last_command_stops_ = true;
+  std::uint64_t end_command_ = 0;  // the first one in the state END
+  std::uint64_t end_turns_ = 0;
+  double way_m_ = 0;        // both wheels' way, without sign
+  WheelVelocities wheels_;  // as last commanded
   ControlCounts counts_;
 };
 

@@ -24,8 +24,8 @@ void open(Kind* device, const std::string& what) {
   if (device == nullptr) return;
   const Status status = device->open();
   if (status == Status::ok) return;
-  throw InputError(what, std::string(to_string(status)) + ": " + device->problem() +
-                             " (try it alone: lakshya devices --test)");
+  throw InputError(
+      what, std::string(to_string(status)) + ": " + device->problem() + " (try it alone: lakshya devices --test)");
 }
 
 std::string from_folder_of(const std::string& config_path, const std::string& path) {
@@ -101,19 +101,23 @@ Machinery::Machinery(const VehicleConfig& config, const StereoCalibration& calib
   (void)lay_out(arena_, 0);
   pipeline_ = std::make_unique<Pipeline>(config_, calibration, width, height, kernels, stage_clock,
                                          arena_.part(pipeline_bytes));
-  spdlog::info("memory: {:.1f} MB for {}x{}, {} disparities", static_cast<double>(arena_.used()) / kBytesPerMb, width,
-               height, config_.matcher.disparities);
+  spdlog::info("memory: {:.1f} MB for {}x{}, {} disparities", static_cast<double>(arena_.used()) / kBytesPerMb,
+               width, height, config_.matcher.disparities);
   if (config_.safety.plan_age_s > config_.vehicle.latency_s) {
-    spdlog::warn("safety.plan_age_s ({}) is more than vehicle.latency_s ({}): the speed governor counts on plans that "
-                 "are no older than that",
-                 config_.safety.plan_age_s, config_.vehicle.latency_s);
+    spdlog::warn(
+        "safety.plan_age_s ({}) is more than vehicle.latency_s ({}): the speed governor counts on plans that "
+        "are no older than that",
+        config_.safety.plan_age_s, config_.vehicle.latency_s);
   }
   capture_ = std::make_unique<Capture>(config_.safety, *devices_.camera.device, clock, exchange_);
   perception_ = std::make_unique<Perception>(config_, *pipeline_, clock, exchange_);
-  control_ = std::make_unique<Control>(
-      config_, std::move(way_points),
-      ControlDevices{devices_.servo.device.get(), devices_.compass.device.get(), devices_.estop.device.get()}, clock,
-      exchange_);
+  if (devices_.compass.device != nullptr) sensing_ = std::make_unique<Sensing>(*devices_.compass.device, exchange_);
+  driving_ = std::make_unique<Driving>(*devices_.servo.device, clock, exchange_);
+  control_ =
+      std::make_unique<Control>(config_, std::move(way_points),
+                                ControlDevices{devices_.servo.device->max_speed_mps(),
+                                               devices_.compass.device != nullptr, devices_.estop.device.get()},
+                                clock, exchange_);
 }
 
 Machinery::~Machinery() {

@@ -11,8 +11,10 @@
 #include "app/core/vehicle_config.h"
 #include "app/loop/capture.h"
 #include "app/loop/control.h"
+#include "app/loop/driving.h"
 #include "app/loop/messages.h"
 #include "app/loop/perception.h"
+#include "app/loop/sensing.h"
 
 namespace lakshya {
 
@@ -47,6 +49,8 @@ class Machinery {
   Exchange& exchange() { return exchange_; }
   Capture& capture() { return *capture_; }
   Perception& perception() { return *perception_; }
+  Sensing* sensing() { return sensing_.get(); }  // null: no compass
+  Driving& driving() { return *driving_; }
   Control& control() { return *control_; }
   const Control& control() const { return *control_; }
   const Pipeline& pipeline() const { return *pipeline_; }
@@ -68,6 +72,8 @@ class Machinery {
   std::unique_ptr<Pipeline> pipeline_;
   std::unique_ptr<Capture> capture_;
   std::unique_ptr<Perception> perception_;
+  std::unique_ptr<Sensing> sensing_;
+  std::unique_ptr<Driving> driving_;
   std::unique_ptr<Control> control_;
 };
 

@@ -35,8 +35,10 @@ class MapCanvas {
     const double u0 = image_.width() / 2.0 - left_m * px_per_m_;
     const double v0 = image_.height() - forward_m * px_per_m_;
     const double r = std::max(radius_m * px_per_m_, 1.0);
-    for (int v = std::max(0, static_cast<int>(v0 - r)); v <= std::min(image_.height() - 1, static_cast<int>(v0 + r)); ++v) {
-      for (int u = std::max(0, static_cast<int>(u0 - r)); u <= std::min(image_.width() - 1, static_cast<int>(u0 + r)); ++u) {
+    for (int v = std::max(0, static_cast<int>(v0 - r));
+         v <= std::min(image_.height() - 1, static_cast<int>(v0 + r)); ++v) {
+      for (int u = std::max(0, static_cast<int>(u0 - r));
+           u <= std::min(image_.width() - 1, static_cast<int>(u0 + r)); ++u) {
         if (std::hypot(u - u0, v - v0) <= r) image_.view().at(u, v) = color;
       }
     }
@@ -57,7 +59,8 @@ class MapCanvas {
 
 }  // namespace
 
-Image<Rgb8> loop_map_picture(ImageView<const std::uint8_t> type, const PlanNote& plan, const VehicleConfig& config) {
+Image<Rgb8> loop_map_picture(ImageView<const std::uint8_t> type, const PlanNote& plan,
+                             const VehicleConfig& config) {
   MapCanvas canvas(type, config.grid.cell_m);
   canvas.dot(0, 0, config.vehicle.radius_m, kVehicle);
   constexpr double kTargetLength = 1.0;  // m

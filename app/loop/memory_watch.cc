@@ -44,6 +44,10 @@ void arm_memory_watch() {
   armed.store(true, std::memory_order_release);
 }
 
+void disarm_memory_watch() {
+  armed.store(false, std::memory_order_release);
+}
+
 bool memory_watch_armed() {
   return armed.load(std::memory_order_acquire);
 }

@@ -30,8 +30,9 @@ class MemoryWatch {
 // Allocations of this thread, for good: for threads that others made (OpenMP's). Their page faults are not counted.
 void watch_this_thread(WatchedPlace place);
 
-// Counting begins, with zero: the loop is READY.
+// Counting begins, with zero: the loop is READY. It ends: the loop has, and its threads are about to go.
 void arm_memory_watch();
+void disarm_memory_watch();
 bool memory_watch_armed();
 
 // Since then. Allocations are always 0 where the hook is not linked (sanitizers have hooks of their own).

@@ -9,6 +9,7 @@
 #include "app/loop/triple_buffer.h"
 #include "app/nav/planner.h"
 #include "hal/camera.h"
+#include "hal/compass.h"
 #include "hal/odometry.h"
 #include "hal/servo.h"
 #include "kernels/base/image_view.h"
@@ -19,15 +20,15 @@ namespace lakshya {
 // Capture to control: what came of the last capture.
 struct FrameNote {
   Status status = Status::timeout;
-  std::uint64_t count = 0;     // pairs captured so far, this one included
-  Nanoseconds arrived = 0;     // the last pair that came
-  Nanoseconds taken = 0;       // its time of capture, of the eye that is older
-  Nanoseconds skew = 0;        // between its two eyes
-  double dark = 0;             // share of black pixels, of the eye that has more
-  double bright = 0;           // the same of saturated ones
-  int same = 0;                // how many pairs before it in a row were just the same
-  std::uint64_t damaged = 0;   // captures that gave a pair nobody can use, so far
-  bool over = false;           // the recording has ended
+  std::uint64_t count = 0;    // pairs captured so far, this one included
+  Nanoseconds arrived = 0;    // the last pair that came
+  Nanoseconds taken = 0;      // its time of capture, of the eye that is older
+  Nanoseconds skew = 0;       // between its two eyes
+  double dark = 0;            // share of black pixels, of the eye that has more
+  double bright = 0;          // the same of saturated ones
+  int same = 0;               // how many pairs before it in a row were just the same
+  std::uint64_t damaged = 0;  // captures that gave a pair nobody can use, so far
+  bool over = false;          // the recording has ended
 };
 
 // Capture to perception: a raw pair, in the loop's memory.
@@ -37,6 +38,12 @@ struct RawPair {
   std::uint64_t number = 0;  // counted from 1
   Nanoseconds taken = 0;
   Nanoseconds arrived = 0;
+};
+
+// Sensing to control.
+struct HeadingNote {
+  Status status = Status::timeout;
+  HeadingSample sample;
 };
 
 // Control to perception: where the vehicle is and wants to go.
@@ -54,8 +61,8 @@ struct PlanNote {
   Nanoseconds started = 0;
   Nanoseconds done = 0;  // on the virtual clock: when control may know of it
   Nanoseconds took = 0;  // the pipeline, on the machine's clock
-  PoseSample pose;    // that it was planned from
-  double target = 0;  // and where to
+  PoseSample pose;       // that it was planned from
+  double target = 0;     // and where to
   bool blocked = true;
   Side recovery = Side::left;
   double direction = 0;  // rad, from straight ahead of that pose
@@ -63,8 +70,24 @@ struct PlanNote {
   ClearEnd clear_end = ClearEnd::unknown;
   double speed_mps = 0;
   double ground_pitch_deg = 0;
-  double nearest_m = -1;  // nearest obstacle cell of the map; -1: none
+  double nearest_m = -1;        // nearest obstacle cell of the map; -1: none
   std::uint32_t obstacles = 0;  // cells
+};
+
+// Control to driving: what the wheels shall do.
+struct DriveCommand {
+  WheelVelocities wheels;
+  bool stops = true;         // as fast as the drives can; `wheels` are zero
+  std::uint64_t number = 0;  // counted from 1
+};
+
+// Driving to control: how the last exchange with the drives went.
+struct DriveNote {
+  std::uint64_t number = 0;  // of the command
+  Status command_status = Status::timeout;
+  Status travel_status = Status::timeout;  // of the newest reading
+  WheelTravel travel;                      // the last one that could be read
+  Nanoseconds time = 0;                    // when the command was over
 };
 
 // Control to whoever shows and records: one for every plan that control has taken up.
@@ -105,13 +128,17 @@ struct Exchange {
   TripleBuffer<FrameNote> frame;
   TripleBuffer<NavNote> nav;
   TripleBuffer<PlanNote> plan;
+  TripleBuffer<DriveCommand> drive_command;
+  TripleBuffer<DriveNote> drive;
   TripleBuffer<StatusNote> status;
   TripleBuffer<MapNote> map;
+  Ring<HeadingNote, 64> headings;
   Ring<Decision, 256> decisions;
   Ring<StateNote, 256> notes;
 
   std::atomic<std::uint64_t> dropped = 0;      // pairs that perception never looked at
   std::atomic<Nanoseconds> working_since = 0;  // perception, on one pair; 0: it waits
+  std::atomic<bool> drive_is_urgent = false;   // the newest command is a stop
   std::atomic<bool> terminate = false;
   std::atomic<bool> reset = false;
   std::atomic<bool> recording_failed = false;

@@ -62,7 +62,12 @@ bool Perception::step(PlanNote& plan) {
   const RawPair& raw = exchange_->raw.reading();
   (void)exchange_->nav.take();
   const NavNote& nav = exchange_->nav.reading();
-  plan = {.number = raw.number, .taken = raw.taken, .arrived = raw.arrived, .started = clock_->now(), .pose = nav.pose, .target = nav.target};
+  plan = {.number = raw.number,
+          .taken = raw.taken,
+          .arrived = raw.arrived,
+          .started = clock_->now(),
+          .pose = nav.pose,
+          .target = nav.target};
   exchange_->working_since.store(plan.started, std::memory_order_release);
   plan.status = pipeline_->process(raw.left, raw.right, input(nav), result_);
   if (plan.status == Status::ok) {

@@ -48,8 +48,8 @@ class Perception {
   bool copies_maps_ = false;
   FrameResult result_;
   std::uint64_t frames_ = 0;
-  double planned_yaw_ = 0;       // of the plan before
-  bool has_direction_ = false;   // and whether it chose one
+  double planned_yaw_ = 0;      // of the plan before
+  bool has_direction_ = false;  // and whether it chose one
   double direction_ = 0;
 };
 

@@ -16,6 +16,8 @@ inline constexpr std::size_t kThreadStackBytes = 256 * 1024;
 // serial bytes are ordinary, too, and a team that takes every processor must not hold them up.
 inline constexpr int kOrdinary = 0;
 inline constexpr int kCapturePriority = 30;
+inline constexpr int kSensingPriority = 32;
+inline constexpr int kDrivingPriority = 35;
 inline constexpr int kControlPriority = 40;
 
 // OpenMP reads its settings when the program is loaded: threads that wait asleep, not spinning (OMP_WAIT_POLICY), with stacks of

@@ -29,14 +29,14 @@ double in_degrees(double rad) {
 std::string decision_line(const Decision& d, Nanoseconds start) {
   const PlanNote& p = d.plan;
   std::string line = fmt::format(
-      R"({{"frame":{},"taken_s":{:.6f},"time_s":{:.6f},"latency_ms":{:.3f},"status":"{}","state":"{}","reason":"{}",)", p.number,
-      seconds(p.taken - start), seconds(d.time - start), seconds(p.done - p.taken) * 1e3, to_string(p.status),
-      to_string(d.state), d.reason == Event::all_well ? "" : to_string(d.reason));
+      R"({{"frame":{},"taken_s":{:.6f},"time_s":{:.6f},"latency_ms":{:.3f},"status":"{}","state":"{}","reason":"{}",)",
+      p.number, seconds(p.taken - start), seconds(d.time - start), seconds(p.done - p.taken) * 1e3,
+      to_string(p.status), to_string(d.state), d.reason == Event::all_well ? "" : to_string(d.reason));
   line += fmt::format(
       R"("target_deg":{:.3f},"blocked":{},"direction_deg":{:.3f},"recovery":"{}","clear_m":{:.3f},"clear_end":"{}",)"
       R"("speed_mps":{:.4f},"nearest_m":{:.3f},"obstacle_cells":{},"ground_pitch_deg":{:.4f},)",
-      in_degrees(p.target), p.blocked, in_degrees(p.direction), p.recovery == Side::left ? "left" : "right", p.clear_m,
-      p.clear_end == ClearEnd::obstacle ? "obstacle" : "unknown", p.speed_mps, p.nearest_m, p.obstacles,
+      in_degrees(p.target), p.blocked, in_degrees(p.direction), p.recovery == Side::left ? "left" : "right",
+      p.clear_m, p.clear_end == ClearEnd::obstacle ? "obstacle" : "unknown", p.speed_mps, p.nearest_m, p.obstacles,
       p.ground_pitch_deg);
   line += fmt::format(
       R"("pose":{{"east_m":{:.4f},"north_m":{:.4f},"yaw_deg":{:.3f}}},"wheels":{{"left_mps":{:.4f},"right_mps":{:.4f}}}}})"
@@ -53,7 +53,8 @@ Recorder::Recorder(const std::string& folder, std::uint64_t picture_every)
   if (error) throw InputError(folder, "cannot be made: " + error.message() + " (choose another --out)");
   const std::string path = folder + "/decisions.jsonl";
   fd_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (fd_ < 0) throw InputError(path, std::string("cannot be written: ") + std::strerror(errno) + " (choose another --out)");
+  if (fd_ < 0)
+    throw InputError(path, std::string("cannot be written: ") + std::strerror(errno) + " (choose another --out)");
 }
 
 Recorder::~Recorder() {

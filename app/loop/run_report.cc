@@ -26,7 +26,9 @@ double seconds(Nanoseconds t) {
 }
 
 Json times(const TimeHistogram& h) {
-  return {{"p50", milliseconds(h.quantile(500))}, {"p99", milliseconds(h.quantile(990))}, {"max", milliseconds(h.max())}};
+  return {{"p50", milliseconds(h.quantile(500))},
+          {"p99", milliseconds(h.quantile(990))},
+          {"max", milliseconds(h.max())}};
 }
 
 Json stages(const StageTimes& t) {
@@ -59,8 +61,9 @@ Json states(const RunRecord& record) {
   list.push_back({{"time_s", 0.0}, {"state", to_string(State::init)}, {"event", ""}});
   for (const StateNote& note : record.notes) {
     if (note.from == note.to) continue;
-    list.push_back(
-        {{"time_s", seconds(note.time - record.start)}, {"state", to_string(note.to)}, {"event", to_string(note.event)}});
+    list.push_back({{"time_s", seconds(note.time - record.start)},
+                    {"state", to_string(note.to)},
+                    {"event", to_string(note.event)}});
   }
   return list;
 }
@@ -123,10 +126,10 @@ Json run_report(const Machinery& m, const Exchange& x, const RunRecord& record) 
 }
 
 std::string report_text(const Json& r) {
-  std::string text = fmt::format("{} frames in {:.1f} s ({} clock, {:.1f} s on the machine's), {} dropped, {} overruns\n",
-                                 r["frames"].get<std::uint64_t>(), r["duration_s"].get<double>(),
-                                 r["clock"].get<std::string>(), r["wall_s"].get<double>(),
-                                 r["dropped"].get<std::uint64_t>(), r["overruns"].get<std::uint64_t>());
+  std::string text =
+      fmt::format("{} frames in {:.1f} s ({} clock, {:.1f} s on the machine's), {} dropped, {} overruns\n",
+                  r["frames"].get<std::uint64_t>(), r["duration_s"].get<double>(), r["clock"].get<std::string>(),
+                  r["wall_s"].get<double>(), r["dropped"].get<std::uint64_t>(), r["overruns"].get<std::uint64_t>());
   text += fmt::format("  {:<18}{:>9}{:>9}{:>9}  ms\n", "", "p50", "p99", "max");
   const auto line = [&](const std::string& name, const Json& t) {
     text += fmt::format("  {:<18}{:>9.2f}{:>9.2f}{:>9.2f}\n", name, t["p50"].get<double>(), t["p99"].get<double>(),

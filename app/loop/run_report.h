@@ -13,7 +13,7 @@ struct RunRecord {
   bool virtual_clock = false;
   Nanoseconds start = 0;
   Nanoseconds end = 0;
-  double wall_s = 0;  // on the machine's clock
+  double wall_s = 0;             // on the machine's clock
   std::vector<StateNote> notes;  // changes of state, in order; the first kMostNotes
   std::uint64_t notes_left_out = 0;
   static constexpr std::size_t kMostNotes = 1000;

@@ -12,8 +12,8 @@ namespace lakshya {
 // What is so at this moment.
 struct Conditions {
   EventSet faults;
-  bool has_goal = false;   // there is somewhere to go
-  bool reset = false;      // asked for since the step before
+  bool has_goal = false;  // there is somewhere to go
+  bool reset = false;     // asked for since the step before
   bool terminate = false;
 };
 
@@ -45,8 +45,8 @@ class SafetyMachine {
   State state_ = State::init;
   Event reason_ = Event::all_well;
   EventSet before_;
-  Nanoseconds well_since_ = -1;    // no fault that stops; -1: there is one
-  Nanoseconds whole_since_ = -1;   // no fault at all
+  Nanoseconds well_since_ = -1;   // no fault that stops; -1: there is one
+  Nanoseconds whole_since_ = -1;  // no fault at all
   Action action_ = Action::hold_zero;
   std::array<StateNote, kEvents + 4> notes_;
   std::size_t noted_ = 0;

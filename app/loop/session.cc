@@ -100,9 +100,10 @@ void run_on_machine_clock(Machinery& m, Clock& clock, const SessionOptions& o, R
   if (machine.device != nullptr) hooks.watchdogs.push_back(machine.device.get());
   const std::string not_locked = lock_memory();
   if (!not_locked.empty()) {
-    spdlog::warn("memory is not locked ({}): control turns may come late when memory is short (run as a service, or with "
-                 "CAP_IPC_LOCK or LimitMEMLOCK)",
-                 not_locked);
+    spdlog::warn(
+        "memory is not locked ({}): control turns may come late when memory is short (run as a service, or with "
+        "CAP_IPC_LOCK or LimitMEMLOCK)",
+        not_locked);
   }
   State told = State::end;
   hooks.housekeeping = [&] {

@@ -17,7 +17,8 @@ constexpr Nanoseconds kLogPeriod = 5 * kSecond;
 std::string status_text(const StatusNote& s, Nanoseconds start) {
   const double speed = (s.wheels.left_mps + s.wheels.right_mps) / 2;
   std::string text = fmt::format(
-      "{:<8} {:6.1f} s  at {:.2f} {:.2f} m, {:.0f} deg  {:.2f} m/s  to {:+.0f} deg, clear {:.1f} m  nearest {}  frame {} "
+      "{:<8} {:6.1f} s  at {:.2f} {:.2f} m, {:.0f} deg  {:.2f} m/s  to {:+.0f} deg, clear {:.1f} m  nearest {}  "
+      "frame {} "
       "{:.1f} ms",
       to_string(s.state), static_cast<double>(s.time - start) / 1e9, s.pose.east_m, s.pose.north_m,
       s.pose.yaw / kRadiansPerDegree, speed, s.direction / kRadiansPerDegree, s.clear_m,

@@ -80,7 +80,13 @@ class SteppedRun {
     const MemoryWatch counted(WatchedPlace::loop);
     for (; !pending_.empty() && pending_.front().done <= due; pending_.pop())
       m_->perception().publish(pending_.front());
+    if (m_->sensing() != nullptr) {
+      // As many as the queue takes; a compass that always has one more is its own fault.
+      for (int i = 0; i < 64 && m_->sensing()->step(due) == Status::ok; ++i) {
+      }
+    }
     const bool goes_on = m_->control().turn(due);
+    m_->driving().step();
     // The turn that has taken up the last plan is the last but one.
     if (over_ && pending_.empty()) m_->exchange().terminate.store(true);
     return goes_on;

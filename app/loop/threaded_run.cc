@@ -18,6 +18,7 @@ namespace lakshya {
 namespace {
 
 constexpr Nanoseconds kWait = 50 * kMillisecond;  // of threads that have nothing to do
+constexpr Nanoseconds kPause = 5 * kMillisecond;  // before a device that fails at once is asked again
 
 // A file descriptor that is closed again.
 class Descriptor {
@@ -72,6 +73,8 @@ class ThreadedRun {
     const Signals signals;
     Thread perception("perception", kOrdinary, [this] { perceive(); });
     Thread capture("capture", kCapturePriority, [this] { capture_all(); });
+    Thread sensing("sensing", kSensingPriority, [this] { sense_all(); });
+    Thread driving("driving", kDrivingPriority, [this] { drive_all(); });
     Thread control("control", kControlPriority, [this] { control_all(); });
     bool warned = false;
     while (!x_->ended.load(std::memory_order_acquire)) {
@@ -81,9 +84,10 @@ class ThreadedRun {
         spdlog::info("asked to end by {}", signal == SIGINT ? "SIGINT" : "SIGTERM");
         x_->terminate.store(true);
       }
-      if (!warned && (!capture.has_priority() || !control.has_priority())) {
-        spdlog::warn("no real-time priority (SCHED_FIFO): control turns may come late when the machine is busy (run as "
-                     "a service, or with CAP_SYS_NICE or LimitRTPRIO)");
+      if (!warned && (!capture.has_priority() || !driving.has_priority() || !control.has_priority())) {
+        spdlog::warn(
+            "no real-time priority (SCHED_FIFO): control turns may come late when the machine is busy (run as "
+            "a service, or with CAP_SYS_NICE or LimitRTPRIO)");
         warned = true;
       }
       kick_watchdogs();
@@ -121,7 +125,7 @@ class ThreadedRun {
         over_.store(true, std::memory_order_release);
         return;
       } else if (status != Status::timeout) {
-        clock_->sleep_until(clock_->now() + 5 * kMillisecond);  // a camera that fails at once
+        clock_->sleep_until(clock_->now() + kPause);
       }
     }
   }
@@ -143,18 +147,47 @@ class ThreadedRun {
         std::uint64_t pairs = 0;
         (void)!::read(new_pair_.get(), &pairs, sizeof pairs);
       }
-      while (perceive_one()) {
-        if (limits_.frames > 0 && m_->perception().frames() >= limits_.frames) {
+      while (!enough_.load(std::memory_order_relaxed) && perceive_one()) {
+        if (limits_.frames > 0 && m_->perception().frames() >= limits_.frames)
           enough_.store(true, std::memory_order_release);
-          return;
-        }
       }
     }
   }
 
+  Status sense_one() {
+    const MemoryWatch watch(WatchedPlace::loop);
+    return m_->sensing()->step(clock_->now() + kWait);
+  }
+
+  void sense_all() {
+    while (m_->sensing() != nullptr && !x_->ended.load(std::memory_order_acquire)) {
+      const Status status = sense_one();
+      if (status != Status::ok && status != Status::timeout) clock_->sleep_until(clock_->now() + kPause);
+    }
+  }
+
+  bool drive_one() {
+    const MemoryWatch watch(WatchedPlace::loop);
+    m_->driving().step();
+    return !x_->ended.load(std::memory_order_acquire);
+  }
+
+  // As often as control commands, or as the drives' line can.
+  void drive_all() {
+    do {
+      if (clock_->wait_for(new_command_.get(), Ready::to_read, clock_->now() + kWait) == Status::ok) {
+        std::uint64_t commands = 0;
+        (void)!::read(new_command_.get(), &commands, sizeof commands);
+      }
+    } while (drive_one());
+  }
+
   bool turn(Nanoseconds due) {
     const MemoryWatch watch(WatchedPlace::loop);
-    return m_->control().turn(due);
+    const bool goes_on = m_->control().turn(due);
+    const std::uint64_t one = 1;
+    (void)!::write(new_command_.get(), &one, sizeof one);
+    return goes_on;
   }
 
   void control_all() {
@@ -170,6 +203,7 @@ class ThreadedRun {
       if (now > due + kControlPeriod) due += (now - due) / kControlPeriod * kControlPeriod;
       clock_->sleep_until(due);
     }
+    disarm_memory_watch();
   }
 
   void kick_watchdogs() {
@@ -184,7 +218,8 @@ class ThreadedRun {
 
   // The plan of the last pair must have reached control, and control had a turn with it.
   void end_with_the_recording() {
-    const bool idle = over_.load(std::memory_order_acquire) && x_->working_since.load(std::memory_order_acquire) == 0;
+    const bool idle =
+        over_.load(std::memory_order_acquire) && x_->working_since.load(std::memory_order_acquire) == 0;
     if (!idle && !enough_.load(std::memory_order_acquire)) {
       idle_turns_ = turns_.load();
       return;
@@ -198,6 +233,7 @@ class ThreadedRun {
   const RunLimits limits_;
   const ThreadedHooks* hooks_;
   Descriptor new_pair_{eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC), "eventfd"};
+  Descriptor new_command_{eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC), "eventfd"};
   std::atomic<bool> over_ = false;    // the recording
   std::atomic<bool> enough_ = false;  // frames
   std::atomic<bool> warm_ = false;

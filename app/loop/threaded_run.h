@@ -1,5 +1,5 @@
-// A run on the machine's clock: a thread for capture, one for perception (with OpenMP's team), one for control at 50 Hz; the
-// caller's thread does what may wait: signals, log, status, recording, watchdogs.
+// A run on the machine's clock: a thread for capture, one for perception (with OpenMP's team), one for control at 50 Hz, one for the
+// drives' line, one for the compass; the caller's thread does what may wait: signals, log, status, recording, watchdogs.
 #pragma once
 
 #include <functional>

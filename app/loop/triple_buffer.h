@@ -18,11 +18,17 @@ class TripleBuffer {
   T& writing() { return slots_[writer_]; }
   // Gives it to the reader. False: the value before was never read.
   bool publish() {
-    const std::uint8_t before = between_.exchange(static_cast<std::uint8_t>(writer_ | kNew), std::memory_order_acq_rel);
+    const std::uint8_t before =
+        between_.exchange(static_cast<std::uint8_t>(writer_ | kNew), std::memory_order_acq_rel);
     writer_ = before & kIndex;
     return (before & kNew) == 0;
   }
 
+  // The writer's: what was published last has not been taken yet.
+  bool is_unread() const { return has_new(); }
+
+  // The reader's: there is a newer value than reading().
+  bool has_new() const { return (between_.load(std::memory_order_acquire) & kNew) != 0; }
   // True: reading() is a newer value than before.
   bool take() {
     if ((between_.load(std::memory_order_relaxed) & kNew) == 0) return false;

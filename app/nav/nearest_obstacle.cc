@@ -21,8 +21,7 @@ NearestObstacle nearest_obstacle(ImageView<const std::uint8_t> type, const GridG
       if (squared < nearest) nearest = squared;
     }
   }
-  if (result.cells > 0)
-    result.distance_m = std::sqrt(static_cast<double>(nearest)) * geometry.cell_mm / 2000.0;
+  if (result.cells > 0) result.distance_m = std::sqrt(static_cast<double>(nearest)) * geometry.cell_mm / 2000.0;
   return result;
 }
 

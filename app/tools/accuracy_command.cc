@@ -9,8 +9,8 @@
 #include "app/core/input_error.h"
 #include "app/core/vehicle_config_file.h"
 #include "app/core/vehicle_config_keys.h"
-#include "app/tools/accuracy_report.h"
 #include "app/lakshyad/options.h"
+#include "app/tools/accuracy_report.h"
 #include "app/tools/output_folder.h"
 #include "app/tools/progress.h"
 

@@ -7,9 +7,9 @@
 #include "app/core/file_bytes.h"
 #include "app/core/image_file.h"
 #include "app/core/input_error.h"
+#include "app/lakshyad/options.h"
 #include "app/tools/bench_report.h"
 #include "app/tools/bench_suite.h"
-#include "app/lakshyad/options.h"
 #include "app/tools/output_folder.h"
 #include "app/tools/progress.h"
 

@@ -7,10 +7,10 @@
 #include <memory>
 
 #include "app/core/vehicle_config_file.h"
+#include "app/lakshyad/options.h"
 #include "app/tools/compare_pairs.h"
 #include "app/tools/compare_report.h"
 #include "app/tools/compare_tables.h"
-#include "app/lakshyad/options.h"
 #include "app/tools/stereo_input.h"
 
 namespace lakshya {

@@ -13,9 +13,9 @@
 #include "app/core/devices.h"
 #include "app/core/input_error.h"
 #include "app/core/vehicle_config_file.h"
+#include "app/lakshyad/options.h"
 #include "app/tools/device_check.h"
 #include "app/tools/device_list.h"
-#include "app/lakshyad/options.h"
 #include "hal/clock/monotonic_clock.h"
 
 namespace lakshya {

@@ -7,8 +7,8 @@
 
 #include "app/core/vehicle_config_file.h"
 #include "app/core/vehicle_config_keys.h"
-#include "app/tools/evaluation.h"
 #include "app/lakshyad/options.h"
+#include "app/tools/evaluation.h"
 
 namespace lakshya {
 namespace {

@@ -11,10 +11,10 @@
 #include "app/core/input_error.h"
 #include "app/core/vehicle_config_file.h"
 #include "app/core/vehicle_config_keys.h"
+#include "app/lakshyad/options.h"
 #include "app/nav/planner.h"
 #include "app/nav/sectors.h"
 #include "app/tools/map_file.h"
-#include "app/lakshyad/options.h"
 #include "app/tools/plan_report.h"
 
 namespace lakshya {

@@ -1,5 +1,8 @@
 #include "tests/emulators/on_terminal.h"
 
+#include <pthread.h>
+#include <sched.h>
+
 #include <chrono>
 
 namespace lakshya::emulator {
@@ -25,6 +28,9 @@ void OnTerminal::unplug() {
 // A millisecond is short beside the 8 ms that a reply of 16 characters takes at 19200 baud, and long enough not to load the
 // machine.
 void OnTerminal::run() {
+  // A device on its line does not wait for this machine's processors, however busy they are; where that is not permitted it does.
+  const sched_param first{.sched_priority = 60};
+  (void)pthread_setschedparam(pthread_self(), SCHED_FIFO, &first);
   while (!stop_) {
     {
       const auto lock = locked();

@@ -270,6 +270,12 @@ void QuickSilverLine::answer(QuickSilverDrive& drive, std::string_view rest, std
   } else {
     line = drive.execute(rest, heard_ns);
   }
+  if (answers_as != 0) {
+    constexpr char kDigits[] = "0123456789ABCDEF";
+    line[2] = kDigits[answers_as / 16 % 16];
+    line[3] = kDigits[answers_as % 16];
+  }
+  if (damaged) line = "# 1\x7f 00ZC";
   if (!is_nth(silent_every)) reply(line + '\r', heard_ns);
 }
 

@@ -117,6 +117,8 @@ class QuickSilverLine final : public LineDevice {
   int garbage_every = 0;                // a damaged line comes before the reply
   bool split = false;                   // every reply comes in two pieces with 3 ms between them
   bool merge = false;                   // every reply comes in one piece with a repetition of itself
+  int answers_as = 0;                   // replies say that they come from this address
+  bool damaged = false;                 // instead of every reply comes something like it
   bool checksum_errors = false;         // the drives want checksums: nak 10 for everything
   std::int64_t slow_ns = 0;             // replies come this much later
   std::int64_t latency_ns = 500'000;    // from a command's end to its reply's beginning
