@@ -33,13 +33,16 @@ class SafetyMachine {
   Action step(Nanoseconds now, const Conditions& conditions);
 
   State state() const { return state_; }
-  // Why the vehicle does not drive, or not as it should; all_well where nothing is wrong.
+  // Why the vehicle does not drive, or not as it should: the worst fault, of equal ones the first; all_well where nothing is
+  // wrong.
   Event reason() const { return reason_; }
   std::span<const StateNote> notes() const { return {notes_.data(), noted_}; }
 
  private:
   void apply(Event event, Nanoseconds now, bool is_new);
   void note(Event event, State from, Nanoseconds now);
+  void proceed(Nanoseconds now, const Conditions& conditions);
+  void renew_reason(const EventSet& faults);
 
   const Nanoseconds recover_;
   State state_ = State::init;
