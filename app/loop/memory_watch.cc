@@ -11,25 +11,31 @@ namespace {
 using Counts = std::array<std::atomic<std::uint64_t>, 3>;
 
 thread_local WatchedPlace here = WatchedPlace::nowhere;
+thread_local std::uint64_t faults_of_inner = 0;  // page faults in the scopes inside of the present one
 std::atomic<bool> armed = false;
 std::atomic<bool> hooked = false;
 Counts allocations{};
 Counts page_faults{};
 
 void add(Counts& counts, WatchedPlace place, std::uint64_t n) {
-  counts[static_cast<std::size_t>(place)].fetch_add(n, std::memory_order_relaxed);
+  if (place != WatchedPlace::nowhere)
+    counts[static_cast<std::size_t>(place)].fetch_add(n, std::memory_order_relaxed);
 }
 
 }  // namespace
 
-MemoryWatch::MemoryWatch(WatchedPlace place) : place_(place), before_(here), armed_(memory_watch_armed()) {
+MemoryWatch::MemoryWatch(WatchedPlace place)
+    : place_(place), before_(here), faults_of_inner_before_(faults_of_inner), armed_(memory_watch_armed()) {
   here = place;
+  faults_of_inner = 0;
   if (armed_) page_faults_ = page_faults_of_thread();
 }
 
 MemoryWatch::~MemoryWatch() {
   here = before_;
-  if (armed_) add(page_faults, place_, page_faults_of_thread() - page_faults_);
+  const std::uint64_t faults = armed_ ? page_faults_of_thread() - page_faults_ : 0;
+  if (armed_) add(page_faults, place_, faults - faults_of_inner);
+  faults_of_inner = faults_of_inner_before_ + faults;
 }
 
 void watch_this_thread(WatchedPlace place) {
@@ -66,7 +72,7 @@ std::uint64_t page_faults_at(WatchedPlace place) {
 
 void count_one_allocation() {
   hooked.store(true, std::memory_order_relaxed);
-  if (here != WatchedPlace::nowhere && armed.load(std::memory_order_relaxed)) add(allocations, here, 1);
+  if (armed.load(std::memory_order_relaxed)) add(allocations, here, 1);
 }
 
 }  // namespace lakshya

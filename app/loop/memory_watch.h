@@ -12,7 +12,8 @@ enum class WatchedPlace : std::uint8_t {
   decoding,  // of a recording's images, or of a camera's JPEG
 };
 
-// While it lives, what this thread does is counted for that place: malloc, calloc, realloc, free, new, delete, and page faults.
+// While it lives, what this thread does is counted for that place: malloc, calloc, realloc, free, new, delete, and page faults;
+// what it does in the scope of a watch inside of it is that one's only.
 class MemoryWatch {
  public:
   explicit MemoryWatch(WatchedPlace place);
@@ -22,8 +23,9 @@ class MemoryWatch {
 
  private:
   const WatchedPlace place_;
-  WatchedPlace before_;
-  bool armed_;
+  const WatchedPlace before_;
+  const std::uint64_t faults_of_inner_before_;
+  const bool armed_;
   std::uint64_t page_faults_ = 0;
 };
 
