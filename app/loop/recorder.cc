@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 
@@ -24,6 +25,11 @@ double in_degrees(double rad) {
   return rad / kRadiansPerDegree;
 }
 
+// JSON has no infinity.
+std::string number(double value, int digits) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "null";
+}
+
 }  // namespace
 
 std::string decision_line(const Decision& d, Nanoseconds start) {
@@ -33,15 +39,17 @@ std::string decision_line(const Decision& d, Nanoseconds start) {
       p.number, seconds(p.taken - start), seconds(d.time - start), seconds(p.done - p.taken) * 1e3,
       to_string(p.status), to_string(d.state), d.reason == Event::all_well ? "" : to_string(d.reason));
   line += fmt::format(
-      R"("target_deg":{:.3f},"blocked":{},"direction_deg":{:.3f},"recovery":"{}","clear_m":{:.3f},"clear_end":"{}",)"
-      R"("speed_mps":{:.4f},"nearest_m":{:.3f},"obstacle_cells":{},"ground_pitch_deg":{:.4f},)",
-      in_degrees(p.target), p.blocked, in_degrees(p.direction), p.recovery == Side::left ? "left" : "right",
-      p.clear_m, p.clear_end == ClearEnd::obstacle ? "obstacle" : "unknown", p.speed_mps, p.nearest_m, p.obstacles,
-      p.ground_pitch_deg);
-  line += fmt::format(
-      R"("pose":{{"east_m":{:.4f},"north_m":{:.4f},"yaw_deg":{:.3f}}},"wheels":{{"left_mps":{:.4f},"right_mps":{:.4f}}}}})"
-      "\n",
-      d.pose.east_m, d.pose.north_m, in_degrees(d.pose.yaw), d.wheels.left_mps, d.wheels.right_mps);
+      R"("target_deg":{},"blocked":{},"direction_deg":{},"recovery":"{}","clear_m":{},"clear_end":"{}",)"
+      R"("speed_mps":{},"nearest_m":{},"obstacle_cells":{},"ground_pitch_deg":{},)",
+      number(in_degrees(p.target), 3), p.blocked, number(in_degrees(p.direction), 3),
+      p.recovery == Side::left ? "left" : "right", number(p.clear_m, 3),
+      p.clear_end == ClearEnd::obstacle ? "obstacle" : "unknown", number(p.speed_mps, 4), number(p.nearest_m, 3),
+      p.obstacles, number(p.ground_pitch_deg, 4));
+  line +=
+      fmt::format(R"("pose":{{"east_m":{},"north_m":{},"yaw_deg":{}}},"wheels":{{"left_mps":{},"right_mps":{}}}}})"
+                  "\n",
+                  number(d.pose.east_m, 4), number(d.pose.north_m, 4), number(in_degrees(d.pose.yaw), 3),
+                  number(d.wheels.left_mps, 4), number(d.wheels.right_mps, 4));
   return line;
 }
 

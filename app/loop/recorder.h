@@ -40,7 +40,7 @@ class Recorder {
   std::string problem_;
 };
 
-// A line of decisions.jsonl, with its end. Times are seconds since `start`.
+// A line of decisions.jsonl, with its end. Times are seconds since `start`; what is no number is null.
 std::string decision_line(const Decision& decision, Nanoseconds start);
 
 }  // namespace lakshya
