@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <random>
+#include <utility>
 
 #include "app/core/input_error.h"
 #include "hal/clock/monotonic_clock.h"
@@ -204,6 +206,76 @@ TEST_F(PipelineTest, TheGroundIsFoundDespiteAWrongPitchAndFollowedAtABoundedRate
   FrameResult next;
   ASSERT_EQ(pipeline.process(black.view(), black.view(), {}, next), Status::ok);
   EXPECT_EQ(next.ground_offset16, f.ground_offset16 + 3);  // 0.2 degrees are 2.7 sixteenths
+}
+
+// What a frame leaves behind.
+void expect_same(const FrameResult& a, const FrameResult& b) {
+  EXPECT_TRUE(test::equal_images(a.disparity, b.disparity));
+  EXPECT_TRUE(test::equal_images(a.grid.type, b.grid.type));
+  EXPECT_TRUE(test::equal_images(a.grid.count, b.grid.count));
+  EXPECT_EQ(a.ground_offset16, b.ground_offset16);
+  EXPECT_EQ(a.plan.histogram, b.plan.histogram);
+  EXPECT_EQ(a.plan.binary, b.plan.binary);
+  EXPECT_EQ(a.plan.blocked, b.plan.blocked);
+  EXPECT_EQ(a.plan.direction, b.plan.direction);
+  EXPECT_EQ(a.plan.speed_mps, b.plan.speed_mps);
+}
+
+TEST_F(PipelineTest, InAPartOfALargerArenaItGivesTheSameAndHarmsNobody) {
+  Pipeline own(vehicle(), rig(), kWidth, kHeight, kReferenceKernels, clock_);
+  const FrameResult expected = run(own);
+
+  const std::size_t bytes = Pipeline::memory_bytes(vehicle(), rig(), kWidth, kHeight, kReferenceKernels);
+  constexpr std::uint8_t kCanary = 0xA5;
+  Arena arena(64 + bytes + 64);
+  const auto before = arena.take<std::uint8_t>(64);
+  Arena part = arena.part(bytes);
+  const auto after = arena.take<std::uint8_t>(64);
+  for (const auto neighbour : {before, after})
+    std::fill(neighbour.begin(), neighbour.end(), kCanary);
+  Pipeline guest(vehicle(), rig(), kWidth, kHeight, kReferenceKernels, clock_, std::move(part));
+  EXPECT_EQ(guest.arena_bytes(), bytes);
+  const FrameResult found = run(guest);
+  EXPECT_GT(reinterpret_cast<const std::uint8_t*>(found.disparity.data), before.data());
+  EXPECT_LT(reinterpret_cast<const std::uint8_t*>(found.disparity.data), after.data());
+  expect_same(found, expected);
+  for (const auto neighbour : {before, after}) {
+    for (const std::uint8_t byte : neighbour)
+      EXPECT_EQ(byte, kCanary);
+  }
+}
+
+TEST_F(PipelineTest, RefusesAPartThatIsTooSmall) {
+  const std::size_t bytes = Pipeline::memory_bytes(vehicle(), rig(), kWidth, kHeight, kReferenceKernels);
+  Arena arena(bytes);
+  EXPECT_THROW(
+      Pipeline(vehicle(), rig(), kWidth, kHeight, kReferenceKernels, clock_, arena.part(bytes - Arena::kAlignment)),
+      std::bad_alloc);
+}
+
+// The floor of the frames before, the histogram's memory and the times are all forgotten.
+TEST_F(PipelineTest, BegunAnewItGivesWhatItGaveAtFirst) {
+  VehicleConfig wrong = vehicle();
+  wrong.camera.pitch_deg = 1.0;
+  Pipeline pipeline(wrong, rig(), kWidth, kHeight, kReferenceKernels, clock_);
+  const test::PaddedImage<std::uint8_t> black(kWidth, kHeight);
+  const auto see_black = [&](Pipeline& by) {
+    FrameResult frame;
+    EXPECT_EQ(by.process(black.view(), black.view(), {}, frame), Status::ok);
+    return frame;
+  };
+  Pipeline fresh(wrong, rig(), kWidth, kHeight, kReferenceKernels, clock_);
+  const FrameResult expected = see_black(fresh);
+
+  (void)run(pipeline);
+  EXPECT_NE(see_black(pipeline).ground_offset16, expected.ground_offset16);  // it remembers
+  (void)run(pipeline);
+  EXPECT_EQ(pipeline.times().frame().count(), 3U);
+  pipeline.begin_anew();
+  EXPECT_EQ(pipeline.times().frame().count(), 0U);
+  expect_same(see_black(pipeline), expected);
+  EXPECT_EQ(pipeline.times().frame().count(), 1U);
+  expect_same(run(pipeline), run(fresh));
 }
 
 TEST(PipelineSizes, TinyImagesAreProcessed) {

@@ -57,17 +57,15 @@ TEST(MemoryWatch, NothingIsCountedBeforeItIsArmed) {
 
 class Armed : public testing::Test {
  protected:
-  void SetUp() override { arm_memory_watch(); }
-};
-
-class Allocations : public Armed {
- protected:
   void SetUp() override {
     allocate_and_free();
-    if (!allocations_are_counted()) GTEST_SKIP() << "a sanitizer has its own malloc";
-    Armed::SetUp();
+    if (!allocations_are_counted()) GTEST_SKIP() << "a sanitizer has its own malloc, and memory beside ours";
+    arm_memory_watch();
   }
 };
+
+using Allocations = Armed;
+using PageFaults = Armed;
 
 TEST_F(Allocations, TakingAndGivingBackCountInTheWatchedScopeOnly) {
   allocate_and_free();
@@ -165,7 +163,7 @@ TEST_F(Allocations, ArmingBeginsWithZero) {
   EXPECT_EQ(allocations_at(WatchedPlace::loop), 0U);
 }
 
-TEST_F(Armed, PageFaultsCountInTheWatchedScopeOnly) {
+TEST_F(PageFaults, CountInTheWatchedScopeOnly) {
   FreshPages before(100);
   before.touch();
   FreshPages inside(100);
@@ -181,7 +179,7 @@ TEST_F(Armed, PageFaultsCountInTheWatchedScopeOnly) {
   EXPECT_EQ(page_faults_at(WatchedPlace::decoding), 0U);
 }
 
-TEST_F(Armed, PageFaultsOfAnInnerScopeAreNotTheOuterOnes) {
+TEST_F(PageFaults, OfAnInnerScopeAreNotTheOuterOnes) {
   FreshPages loop(100);
   FreshPages decoding(200);
   FreshPages nowhere(400);
