@@ -212,6 +212,7 @@ void Control::tell(Nanoseconds now, bool has_new_plan) {
             .frames = frame_.count,
             .way_point = way_point_};
   if (plan_) {
+    status.blocked = plan_->blocked;
     status.clear_m = plan_->clear_m;
     status.nearest_m = plan_->nearest_m;
     status.plan_age = now - plan_->taken;
@@ -227,6 +228,16 @@ void Control::tell(Nanoseconds now, bool has_new_plan) {
                                    .wheels = wheels_});
 }
 
+// Before everything has been heard of for the first time, something is always missing.
+void Control::count_faults() {
+  for (std::size_t i = 0; i < kEvents; ++i) {
+    const auto event = static_cast<Event>(i);
+    const bool begins = faults_.has(event) && !counted_.has(event);
+    if (begins && machine_.state() != State::init) ++counts_.faults[i];
+  }
+  counted_ = faults_;
+}
+
 bool Control::turn(Nanoseconds due) {
   const Nanoseconds now = clock_->now();
   ++counts_.turns;
@@ -239,8 +250,7 @@ bool Control::turn(Nanoseconds due) {
   take_drive(now);
   has_goal_ = find_goal();
   const Action action = machine_.step(now, judge(now, due));
-  for (const StateNote& note : machine_.notes())
-    ++counts_.faults[static_cast<std::size_t>(note.event)];
+  count_faults();
   command(action);
   tell(now, has_new_plan);
   counts_.took.add(clock_->now() - now);

@@ -60,6 +60,7 @@ class Control {
   void judge_camera(Nanoseconds now);
   void judge_plan(Nanoseconds now);
   Conditions judge(Nanoseconds now, Nanoseconds due);
+  void count_faults();
   bool find_goal();
   WheelVelocities wanted(Action action) const;
   void take_drive(Nanoseconds now);
@@ -76,6 +77,7 @@ class Control {
   SafetyMachine machine_;
   WheelOdometry odometry_;
   EventSet faults_;
+  EventSet counted_;  // those of the turn before
   PoseSample pose_;
   std::size_t way_point_ = 0;
   double target_ = 0;

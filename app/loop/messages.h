@@ -108,6 +108,7 @@ struct StatusNote {
   Event reason = Event::all_well;
   PoseSample pose;
   WheelVelocities wheels;
+  bool blocked = true;   // the plan found no way
   double direction = 0;  // rad, the plan's as seen from the vehicle now
   double clear_m = 0;
   double nearest_m = -1;

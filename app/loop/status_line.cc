@@ -16,14 +16,14 @@ constexpr Nanoseconds kLogPeriod = 5 * kSecond;
 
 std::string status_text(const StatusNote& s, Nanoseconds start) {
   const double speed = (s.wheels.left_mps + s.wheels.right_mps) / 2;
+  const std::string way =
+      s.blocked ? "no way open"
+                : fmt::format("to {:+.0f} deg, clear {:.1f} m", s.direction / kRadiansPerDegree, s.clear_m);
   std::string text = fmt::format(
-      "{:<8} {:6.1f} s  at {:.2f} {:.2f} m, {:.0f} deg  {:.2f} m/s  to {:+.0f} deg, clear {:.1f} m  nearest {}  "
-      "frame {} "
-      "{:.1f} ms",
+      "{:<8} {:6.1f} s  at {:.2f} {:.2f} m, {:.0f} deg  {:.2f} m/s  {}  nearest {}  frame {} {:.1f} ms",
       to_string(s.state), static_cast<double>(s.time - start) / 1e9, s.pose.east_m, s.pose.north_m,
-      s.pose.yaw / kRadiansPerDegree, speed, s.direction / kRadiansPerDegree, s.clear_m,
-      s.nearest_m < 0 ? "-" : fmt::format("{:.1f} m", s.nearest_m), s.frames,
-      static_cast<double>(s.frame_time) / 1e6);
+      s.pose.yaw / kRadiansPerDegree, speed, way, s.nearest_m < 0 ? "-" : fmt::format("{:.1f} m", s.nearest_m),
+      s.frames, static_cast<double>(s.frame_time) / 1e6);
   if (s.reason != Event::all_well) text += fmt::format("  {}", to_string(s.reason));
   return text;
 }

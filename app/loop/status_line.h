@@ -8,6 +8,7 @@
 
 namespace lakshya {
 
+// Without a way "no way open" instead of direction and clear distance:
 // "RUN 12.4 s  at 1.20 -0.31 m, 12 deg  0.45 m/s  to +5 deg, clear 3.2 m  nearest 1.9 m  frame 124 21.3 ms"
 std::string status_text(const StatusNote& status, Nanoseconds start);
 

@@ -50,6 +50,7 @@ void* aligned_alloc(std::size_t alignment, std::size_t bytes) {
 
 int posix_memalign(void** memory, std::size_t alignment, std::size_t bytes) {
   lakshya::count_one_allocation();
+  if (alignment < sizeof(void*) || (alignment & (alignment - 1)) != 0) return EINVAL;
   void* taken = __libc_memalign(alignment, bytes);
   if (taken == nullptr) return ENOMEM;
   *memory = taken;

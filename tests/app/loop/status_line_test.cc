@@ -23,6 +23,7 @@ StatusNote driving() {
   s.pose.north_m = -0.31;
   s.pose.yaw = 12 * kRadiansPerDegree;
   s.wheels = {.left_mps = 0.4, .right_mps = 0.5};
+  s.blocked = false;
   s.direction = 5 * kRadiansPerDegree;
   s.clear_m = 3.2;
   s.nearest_m = 1.9;
@@ -42,11 +43,10 @@ TEST(StatusText, SaysWhyItDoesNot) {
   s.state = State::stop;
   s.reason = Event::camera_silent;
   s.wheels = {};
-  s.direction = -90 * kRadiansPerDegree;
+  s.blocked = true;
   s.nearest_m = -1;
   EXPECT_EQ(status_text(s, kStart),
-            "STOP       12.4 s  at 1.20 -0.31 m, 12 deg  0.00 m/s  to -90 deg, clear 3.2 m  nearest -  frame 124 "
-            "21.3 ms  "
+            "STOP       12.4 s  at 1.20 -0.31 m, 12 deg  0.00 m/s  no way open  nearest -  frame 124 21.3 ms  "
             "camera_silent");
 }
 
