@@ -23,6 +23,12 @@ namespace lakshya {
 
 inline constexpr Nanoseconds kControlPeriod = 20 * kMillisecond;
 
+// When the turn after the one of `due` is due. Turns that are over already at `now` are left out; they were counted as late.
+inline Nanoseconds next_turn(Nanoseconds due, Nanoseconds now) {
+  due += kControlPeriod;
+  return now > due + kControlPeriod ? due + (now - due) / kControlPeriod * kControlPeriod : due;
+}
+
 struct ControlDevices {
   double max_speed_mps = 0;  // the drives'
   bool has_compass = false;

@@ -38,7 +38,7 @@ class SteppedRun {
 
   void run(const std::function<void()>& after_turn) {
     Nanoseconds due = clock_->now();
-    for (bool goes_on = true; goes_on; due += kControlPeriod) {
+    for (bool goes_on = true; goes_on; due = next_turn(due, clock_->now())) {
       capture_until(due);
       goes_on = control(due);
       if (!memory_watch_armed() && m_->control().state() >= State::ready) arm_memory_watch();
@@ -47,19 +47,24 @@ class SteppedRun {
   }
 
  private:
-  // All pairs that come until the control turn, each with its plan.
+  // All pairs that come until the control turn, each with its plan. Before a turn that is late (drives that did not answer), the
+  // pair that has come meanwhile.
   void capture_until(Nanoseconds due) {
-    while (!over_ && clock_->now() < due) {
-      const Status status = capture(due);
-      if (status == Status::ok) {
-        process();
-      } else if (status == Status::end_of_data) {
-        over_ = true;
-      } else if (status != Status::timeout) {
-        clock_->sleep_until(std::min(due, clock_->now() + kMillisecond));  // a camera that fails at once
-      }
-    }
+    if (!over_ && clock_->now() > due) capture_and_process(clock_->now());
+    while (!over_ && clock_->now() < due)
+      capture_and_process(due);
     clock_->sleep_until(due);
+  }
+
+  void capture_and_process(Nanoseconds deadline) {
+    const Status status = capture(deadline);
+    if (status == Status::ok) {
+      process();
+    } else if (status == Status::end_of_data) {
+      over_ = true;
+    } else if (status != Status::timeout) {
+      clock_->sleep_until(std::min(deadline, clock_->now() + kMillisecond));  // a camera that fails at once
+    }
   }
 
   Status capture(Nanoseconds due) {

@@ -197,10 +197,7 @@ class ThreadedRun {
     while (turn(due)) {
       turns_.fetch_add(1, std::memory_order_release);
       if (!memory_watch_armed() && m_->control().state() >= State::ready) arm_memory_watch();
-      due += kControlPeriod;
-      // Turns that are over already are left out; they were counted as late.
-      const Nanoseconds now = clock_->now();
-      if (now > due + kControlPeriod) due += (now - due) / kControlPeriod * kControlPeriod;
+      due = next_turn(due, clock_->now());
       clock_->sleep_until(due);
     }
     disarm_memory_watch();
