@@ -1,5 +1,7 @@
 #include "app/lakshyad/options.h"
 
+#include <filesystem>
+
 #include "app/core/input_error.h"
 #include "kernels/base/isa.h"
 
@@ -41,6 +43,19 @@ CLI::Validator angle_in_degrees() {
     return text + " is not an angle from -180 to 180 degrees";
   };
   return {check, "DEG in -180..180"};
+}
+
+void name_recording(VehicleConfig& config, const std::vector<std::string>& source,
+                    const std::vector<std::string>& calibration) {
+  const bool two = source.size() == 2;
+  config.folder.path = two ? "" : source[0];
+  config.folder.left = two ? source[0] : "";
+  config.folder.right = two ? source[1] : "";
+  if (calibration.empty()) return;
+  config.camera.calibration.clear();
+  for (const std::string& path : calibration)
+    config.camera.calibration +=
+        (config.camera.calibration.empty() ? "" : ",") + std::filesystem::absolute(path).string();
 }
 
 }  // namespace lakshya

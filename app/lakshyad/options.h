@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/core/kernel_table.h"
+#include "app/core/vehicle_config.h"
 
 namespace lakshya {
 
@@ -35,5 +36,10 @@ constexpr int round_up_to_16(int n) {
 
 // Degrees from -180 to 180; CLI::Range lets "nan" through.
 CLI::Validator angle_in_degrees();
+
+// The configuration's recording: a sequence, or left and right images or folders. Calibration: a file, two, or a folder; none: the
+// configuration's own.
+void name_recording(VehicleConfig& config, const std::vector<std::string>& source,
+                    const std::vector<std::string>& calibration);
 
 }  // namespace lakshya

@@ -1,6 +1,5 @@
 #include "app/lakshyad/run_command.h"
 
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -83,25 +82,15 @@ void set_rate(const std::string& rate, VehicleConfig& config, SessionOptions& se
 
 // No vehicle: recorded pairs instead of a camera, and nobody's wheels.
 void take_source(const ReplayOptions& o, VehicleConfig& config) {
-  config.drivers = {
-      .camera = "folder", .servo = "record", .unsupervised_speed_mps = config.drivers.unsupervised_speed_mps};
-  const bool two = o.source.size() == 2;
-  config.folder.path = two ? "" : o.source[0];
-  config.folder.left = two ? o.source[0] : "";
-  config.folder.right = two ? o.source[1] : "";
-  config.camera.calibration.clear();
-  for (const std::string& path : o.calibration)
-    config.camera.calibration +=
-        (config.camera.calibration.empty() ? "" : ",") + std::filesystem::absolute(path).string();
+  config.drivers = {.camera = "folder", .servo = "record", .unsupervised_speed_mps = config.drivers.unsupervised_speed_mps};
+  name_recording(config, o.source, o.calibration);
   const auto pairs = static_cast<std::uint64_t>(RecordedFolder(config.folder).count());
   config.folder.repeat = o.loop.session.limits.frames > pairs ? "yes" : "no";
 }
 
 void replay(ReplayOptions o) {
   VehicleConfig config = load(o.loop);
-  const std::string configured = config.camera.calibration;
   take_source(o, config);
-  if (o.calibration.empty()) config.camera.calibration = configured;
   set_rate(o.rate, config, o.loop.session);
   o.loop.session.source = o.source[0];
   run(o.loop, config);
