@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/core/over_bands.h"
 #include "kernels/base/units.h"
 
 namespace lakshya {
@@ -75,14 +76,6 @@ SupportParams support_params(const MatcherConfig& c) {
           .min_percent = c.name == "sgm" ? c.support_min_percent : c.window_support_min_percent,
           .max_difference = c.support_max_difference};
 }
-
-namespace {
-
-int code(Status s) {
-  return static_cast<int>(s);
-}
-
-}  // namespace
 
 StoredRange stored_range(int min_disparity, double doffs) {
   const int offset16 = static_cast<int>(std::lround(doffs * kDisparityScale));
@@ -168,26 +161,19 @@ Status Matcher::match(ImageView<const std::uint8_t> left, ImageView<const std::u
   const auto mark = [&](std::size_t pass) {
     if (clock != nullptr) times->at[pass] = clock->now();
   };
-  int worst = code(Status::ok);
   mark(0);
   // Three passes, because a band reads its neighbours' descriptors (warm-up rows, window) and disparities (support window).
-#pragma omp parallel for schedule(dynamic) reduction(max : worst)
-  for (int b = 0; b < bands_; ++b) {
-    worst = std::max({worst, code(describe_band(b, left, left_)), code(describe_band(b, right, right_))});
-  }
+  const Status described = over_bands(
+      bands_, [&](int b) { return std::max(describe_band(b, left, left_), describe_band(b, right, right_)); });
   mark(1);
   const int count = pieces();
-#pragma omp parallel for schedule(dynamic) reduction(max : worst)
-  for (int i = 0; i < count; ++i)
-    worst = std::max(worst, code(match_piece(i, count, left)));
+  const Status searched = over_bands(count, [&](int i) { return match_piece(i, count, left); });
   mark(2);
-#pragma omp parallel for schedule(dynamic) reduction(max : worst)
-  for (int b = 0; b < bands_; ++b) {
-    worst = std::max(worst, code(kernels_->support(matched_, support_, band(b), supported_)));
-  }
+  const Status supported =
+      over_bands(bands_, [&](int b) { return kernels_->support(matched_, support_, band(b), supported_); });
   mark(3);
   disparity = supported_;
-  return static_cast<Status>(worst);
+  return std::max({described, searched, supported});
 }
 
 }  // namespace lakshya

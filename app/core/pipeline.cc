@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/core/geometry.h"
+#include "app/core/over_bands.h"
 #include "app/core/input_error.h"
 #include "kernels/grid_bin/grid_bin.h"
 
@@ -170,30 +171,24 @@ Status Pipeline::rectify(ImageView<const std::uint8_t> left, ImageView<const std
   result.left = left;
   result.right = right;
   if (!remap_) return Status::ok;
-  int worst = 0;
-#pragma omp parallel for schedule(dynamic) reduction(max : worst)
-  for (int i = 0; i < 2 * bands_; ++i) {
+  const Status status = over_bands(2 * bands_, [&](int i) {
     const bool is_left = i < bands_;
     const RectifyImages& maps = is_left ? buffers_->map_left : buffers_->map_right;
-    const Status status = kernels_->rectify(is_left ? left : right, maps.view(), band_rows(i % bands_),
-                                            is_left ? buffers_->left : buffers_->right);
-    worst = std::max(worst, static_cast<int>(status));
-  }
+    return kernels_->rectify(is_left ? left : right, maps.view(), band_rows(i % bands_),
+                             is_left ? buffers_->left : buffers_->right);
+  });
   result.left = buffers_->left;
   result.right = buffers_->right;
-  return static_cast<Status>(worst);
+  return status;
 }
 
 Status Pipeline::find_ground(FrameResult& result) {
   std::span<GroundHistogram> residuals = buffers_->residuals;
-  int worst = 0;
-#pragma omp parallel for schedule(dynamic) reduction(max : worst)
-  for (int band = 0; band < bands_; ++band) {
+  const Status status = over_bands(bands_, [&](int band) {
     GroundHistogram& h = residuals[size(band)];
     h.fill(0);
-    worst = std::max(
-        worst, static_cast<int>(kernels_->ground_residuals(mount_model_, result.disparity, band_rows(band), h)));
-  }
+    return kernels_->ground_residuals(mount_model_, result.disparity, band_rows(band), h);
+  });
   for (std::size_t band = 1; band < residuals.size(); ++band) {
     for (std::size_t i = 0; i < residuals[0].size(); ++i)
       residuals[0][i] += residuals[band][i];
@@ -206,7 +201,7 @@ Status Pipeline::find_ground(FrameResult& result) {
   ground_offset16_ = offset;
   result.ground_offset16 = offset;
   prune_model_ = shift_floor(mount_model_, std::int64_t{offset} << kDisparityToQ16);
-  return static_cast<Status>(worst);
+  return status;
 }
 
 Status Pipeline::project_and_bin(FrameResult& result) {
@@ -214,25 +209,20 @@ Status Pipeline::project_and_bin(FrameResult& result) {
   std::fill(b.counts.begin(), b.counts.end(), PixelCounts{});
   const std::size_t scratch = project_scratch_bytes(camera_.width);
   const int maps = static_cast<int>(b.maps.size());
-  int worst = 0;
-#pragma omp parallel for num_threads(maps) reduction(max : worst)
-  for (int map = 0; map < maps; ++map) {
-    worst = std::max(worst, static_cast<int>(clear_grid(b.maps[size(map)])));
-  }
-#pragma omp parallel for schedule(dynamic) num_threads(maps) reduction(max : worst)
-  for (int band = 0; band < bands_; ++band) {
-    const Status status = kernels_->project_rows(
-        prune_model_, result.disparity, band_rows(band), b.maps[size(omp_get_thread_num())], b.counts[size(band)],
-        b.classes, b.project_scratch.subspan(size(band) * scratch, scratch));
-    worst = std::max(worst, static_cast<int>(status));
-  }
-#pragma omp parallel for num_threads(maps) reduction(max : worst)
-  for (int band = 0; band < bands_; ++band) {
-    for (std::size_t map = 1; map < b.maps.size(); ++map) {
-      const Rows rows = rows_of_band(b.maps[0].geometry.rows, bands_, band);
-      worst = std::max(worst, static_cast<int>(add_grid(b.maps[map], rows, b.maps[0])));
-    }
-  }
+  const Status cleared = over_bands(maps, maps, [&](int map) { return clear_grid(b.maps[size(map)]); });
+  // Every thread counts into a map of its own.
+  const Status counted = over_bands(bands_, maps, [&](int band) {
+    return kernels_->project_rows(prune_model_, result.disparity, band_rows(band), b.maps[size(omp_get_thread_num())],
+                                  b.counts[size(band)], b.classes,
+                                  b.project_scratch.subspan(size(band) * scratch, scratch));
+  });
+  const Status added = over_bands(bands_, maps, [&](int band) {
+    Status worst = Status::ok;
+    const Rows rows = rows_of_band(b.maps[0].geometry.rows, bands_, band);
+    for (std::size_t map = 1; map < b.maps.size(); ++map)
+      worst = std::max(worst, add_grid(b.maps[map], rows, b.maps[0]));
+    return worst;
+  });
   result.pixels = {};
   for (const PixelCounts& counts : b.counts) {
     for (int i = 0; i < kPixelClasses; ++i)
@@ -242,7 +232,7 @@ Status Pipeline::project_and_bin(FrameResult& result) {
   }
   result.classes = b.classes;
   result.grid = b.maps[0];
-  return static_cast<Status>(worst);
+  return std::max({cleared, counted, added});
 }
 
 Status Pipeline::process(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
