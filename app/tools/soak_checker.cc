@@ -49,17 +49,20 @@ void SoakChecker::begin(const Fault& fault, Track& track) {
 }
 
 void SoakChecker::watch(const Fault& fault, Track& track, const SoakTurn& turn) {
-  if (fault.kind == FaultKind::camera_frozen && track.counts_from < 0) {
+  if (fault.kind == FaultKind::camera_frozen) {
     if (fault.felt < 0) return;
-    if (track.way_when_felt < 0) track.way_when_felt = turn.way_m;
-    if (turn.way_m - track.way_when_felt < limits_.frozen_travel_m) return;
-    track.counts_from = turn.now;
-    track.turning = true;
+    if (track.way_when_felt < 0) {
+      track.way_when_felt = turn.way_m;
+      track.turning = told_to_turn_;
+    }
+    const bool has_moved = turn.way_m - track.way_when_felt >= limits_.frozen_travel_m;
+    if (track.counts_from < 0 && has_moved) track.counts_from = turn.now;
   }
-  const Nanoseconds since = turn.now - track.counts_from;
+  const bool counts = track.counts_from >= 0;
+  const Nanoseconds since = counts ? turn.now - track.counts_from : 0;
   if (!turn.told_to_turn) {
     if (track.turning) track.reaction = since;
-  } else if (since > limits_.reaction && !track.told_late) {
+  } else if (counts && since > limits_.reaction && !track.told_late) {
     track.told_late = true;
     violate({SoakRule::stops_in_time, turn.now, track.counts_from, fault.kind, turn.state});
   }

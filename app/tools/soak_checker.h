@@ -47,8 +47,8 @@ struct FaultRecord {
   std::uint64_t times = 0;
   std::uint64_t while_turning = 0;  // how often it began when the wheels were told to turn
   std::uint64_t stopped = 0;        // how often they were told zero because of it, or during it
-  Nanoseconds worst_reaction = 0;
-  std::uint64_t recovered = 0;  // how often RUN came after it (two at once count for the later end)
+  Nanoseconds worst_reaction = 0;   // a frozen camera's: 0 where zero came before its limit began to count
+  std::uint64_t recovered = 0;      // how often RUN came after it (two at once count for the later end)
   Nanoseconds worst_recovery = 0;
 };
 
