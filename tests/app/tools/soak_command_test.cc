@@ -272,6 +272,12 @@ TEST_F(SoakTest, TheCommandSaysAndWritesWhatHappened) {
   EXPECT_GE(json["samples"].size(), 20U);
   EXPECT_TRUE(fs::exists(folder_.path("out/soak.png")));
 
+  // One thread is another way through OpenMP; the program counts allocations, this test does not.
+  std::vector<std::string> alone = words;
+  alone.insert(alone.end(), {"--set", "loop.threads=1"});
+  const Outcome one_thread = run_command(alone);
+  EXPECT_EQ(one_thread.exit_code, 0) << one_thread.out << one_thread.err;
+
   const Outcome refused = run_command({lakshya, "soak", folder_.path("nowhere")});
   EXPECT_EQ(refused.exit_code, 1);
 }
