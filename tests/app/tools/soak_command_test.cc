@@ -222,6 +222,7 @@ class SoakTest : public ::testing::Test {
     VehicleConfig config = load_vehicle_config("", "indoor", {kHeight});
     config.folder.path = folder_.path("");
     config.camera.calibration = calibration_;
+    config.grid.rows = config.grid.cols = 60;
     config.loop.threads = 1;  // a team that spins, as here, is slow where others work, too
     return soak_config(config);
   }
@@ -271,6 +272,14 @@ TEST_F(SoakTest, TheCommandSaysAndWritesWhatHappened) {
   EXPECT_EQ(json["faults"].size(), kFaultKinds);
   EXPECT_GE(json["samples"].size(), 20U);
   EXPECT_TRUE(fs::exists(folder_.path("out/soak.png")));
+
+  // A limit that is too long for what is demanded.
+  std::vector<std::string> patient = words;
+  patient.insert(patient.end(), {"--set", "safety.camera_silent_s=2", "--set", "safety.plan_age_s=5"});
+  const Outcome failed = run_command(patient);
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_NE(failed.out.find("FAILED: a safety rule was broken"), std::string::npos) << failed.out;
+  EXPECT_NE(failed.out.find("the wheels are told to turn 0.2"), std::string::npos) << failed.out;
 
   // One thread is another way through OpenMP; the program counts allocations, this test does not.
   std::vector<std::string> alone = words;
