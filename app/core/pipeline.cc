@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "app/core/geometry.h"
-#include "app/core/over_bands.h"
 #include "app/core/input_error.h"
+#include "app/core/over_bands.h"
 #include "kernels/grid_bin/grid_bin.h"
 
 namespace lakshya {
@@ -212,8 +212,8 @@ Status Pipeline::project_and_bin(FrameResult& result) {
   const Status cleared = over_bands(maps, maps, [&](int map) { return clear_grid(b.maps[size(map)]); });
   // Every thread counts into a map of its own.
   const Status counted = over_bands(bands_, maps, [&](int band) {
-    return kernels_->project_rows(prune_model_, result.disparity, band_rows(band), b.maps[size(omp_get_thread_num())],
-                                  b.counts[size(band)], b.classes,
+    return kernels_->project_rows(prune_model_, result.disparity, band_rows(band),
+                                  b.maps[size(omp_get_thread_num())], b.counts[size(band)], b.classes,
                                   b.project_scratch.subspan(size(band) * scratch, scratch));
   });
   const Status added = over_bands(bands_, maps, [&](int band) {

@@ -82,7 +82,8 @@ void set_rate(const std::string& rate, VehicleConfig& config, SessionOptions& se
 
 // No vehicle: recorded pairs instead of a camera, and nobody's wheels.
 void take_source(const ReplayOptions& o, VehicleConfig& config) {
-  config.drivers = {.camera = "folder", .servo = "record", .unsupervised_speed_mps = config.drivers.unsupervised_speed_mps};
+  config.drivers = {
+      .camera = "folder", .servo = "record", .unsupervised_speed_mps = config.drivers.unsupervised_speed_mps};
   name_recording(config, o.source, o.calibration);
   const auto pairs = static_cast<std::uint64_t>(RecordedFolder(config.folder).count());
   config.folder.repeat = o.loop.session.limits.frames > pairs ? "yes" : "no";

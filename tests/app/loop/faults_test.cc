@@ -141,6 +141,12 @@ TEST(LoopFaults, EachStopsTheWheelsInTimeAndEndsAsTheTableSays) {
     if (HasFatalFailure()) break;
   }
   rig.end();
+  const ControlCounts& counts = rig.machinery->control().counts();
+  const double late_ms = static_cast<double>(counts.lateness.quantile(990)) / 1e6;
+  std::printf("%llu control turns, lateness p99 %.2f ms, longest %.2f ms\n",
+              static_cast<unsigned long long>(counts.turns), late_ms,
+              static_cast<double>(counts.lateness.max()) / 1e6);
+  EXPECT_LT(late_ms, 5);
   for (const Fault& fault : all)
     EXPECT_TRUE(has_begun(rig, fault.event)) << to_string(fault.event);
   EXPECT_TRUE(rig.stands());
