@@ -3,6 +3,7 @@
 
 #include <pthread.h>
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -49,7 +50,7 @@ class Thread {
   std::function<void()> body_;
   pthread_t thread_{};
   bool running_ = false;
-  volatile bool has_priority_ = true;
+  std::atomic<bool> has_priority_ = true;
 };
 
 // Page faults of the calling thread so far.

@@ -150,7 +150,10 @@ inline KernelTable rig_kernels() {
 
 struct LoopRig {
   explicit LoopRig(const std::function<void(VehicleConfig&)>& change = {}) {
-    compass.rate_hz = 20;
+    {
+      const auto lock = compass_terminal.locked();
+      compass.rate_hz = 20;
+    }
     VehicleConfig config;
     config.drivers.servo = "quicksilver";
     config.drivers.compass = "os5000";

@@ -1,5 +1,7 @@
 // `lakshyad run` as systemd starts it: a recorded drive as the camera, emulated drives and compass on their lines.
 #include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 
 #include <cmath>
 #include <csignal>
@@ -27,6 +29,7 @@ class RunCommand : public testing::Test {
  protected:
   void SetUp() override {
     if (lakshyad_binary().empty()) GTEST_SKIP() << "LAKSHYAD_BIN names no lakshyad";
+    const auto lock = compass_terminal_.locked();
     compass_.rate_hz = 20;
   }
 
@@ -204,6 +207,57 @@ TEST_F(RunCommand, WhatCannotBeginNeverTurnsAWheel) {
   refused({"--set", "camera.calibration=/no/calib.txt"}, "/no/calib.txt");
   refused({"--set", "quicksilver.left_address=99"}, "drivers.servo: quicksilver");
   refused({"--set", "memory.limit_mb=1"}, "memory.limit_mb");
+}
+
+// systemd's side: a socket for its messages.
+class NotifySocket {
+ public:
+  explicit NotifySocket(const std::string& path)
+      : fd_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    path.copy(address.sun_path, sizeof address.sun_path - 1);
+    EXPECT_EQ(::bind(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  }
+  ~NotifySocket() { (void)::close(fd_); }
+  NotifySocket(const NotifySocket&) = delete;
+  NotifySocket& operator=(const NotifySocket&) = delete;
+
+  // Everything that has come since the last call.
+  std::string messages() const {
+    std::string all;
+    char buffer[512];
+    for (ssize_t got = 0; (got = ::recv(fd_, buffer, sizeof buffer, 0)) > 0;)
+      all += std::string(buffer, static_cast<std::size_t>(got)) + "\n";
+    return all;
+  }
+
+ private:
+  int fd_;
+};
+
+TEST_F(RunCommand, SystemdIsToldAsLongAsTheLoopTurns) {
+  const std::string path = folder_.path("notify");
+  const NotifySocket systemd(path);
+  Words words{"/usr/bin/env", "NOTIFY_SOCKET=" + path, "WATCHDOG_USEC=1000000"};
+  for (const std::string& word : run_words())
+    words.push_back(word);
+  ChildProcess firmware(words);
+  ASSERT_TRUE(drives_soon(firmware));
+  const std::string started = systemd.messages();
+  EXPECT_NE(started.find("READY=1"), std::string::npos) << started;
+  EXPECT_NE(started.find("STATUS=RUN"), std::string::npos) << started;
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  EXPECT_NE(systemd.messages().find("WATCHDOG=1"), std::string::npos);
+  firmware.signal(SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  (void)systemd.messages();
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  EXPECT_EQ(systemd.messages(), "") << "kicked by a program that hangs";
+  firmware.signal(SIGCONT);
+  firmware.signal(SIGTERM);
+  EXPECT_EQ(firmware.wait(3000), 0);
+  EXPECT_NE(systemd.messages().find("STOPPING=1"), std::string::npos);
 }
 
 // The emulated compass is on the vehicle whose wheels the emulated drives turn.
