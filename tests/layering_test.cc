@@ -47,6 +47,7 @@ TEST(LayeringRules, WrongArrows) {
       {"hal/c.cc", {"\"kernels/census/census.h\"", "\"app/core/image.h\"", "<yaml-cpp/yaml.h>"}},
       {"app/nav/n.cc", {"\"app/core/image.h\"", "\"hal/clock.h\"", "<yaml-cpp/yaml.h>", "<opencv2/core.hpp>"}},
       {"app/core/p.cc", {"\"app/tools/sheet.h\"", "<opencv2/core.hpp>", "\"opencv2/core.hpp\""}},
+      {"app/loop/l.cc", {"\"app/tools/sheet.h\"", "\"app/lakshyad/options.h\"", "<opencv2/core.hpp>", "<CLI/CLI.hpp>"}},
       {"app/lakshyad/m.cc", {"\"app/tools/sheet.h\"", "<opencv2/core.hpp>"}},
       {"app/tools/m.cc", {"\"tests/fake.h\"", "<hwy/highway.h>"}},
       {"app/extra/e.cc", {"<cstdint>"}},
@@ -137,7 +138,7 @@ TEST_F(Layering, BoardsAreData) {
 }
 
 TEST_F(Layering, FirmwareLinksNoOpenCv) {
-  for (const char* folder : {"kernels", "hal", "app/nav", "app/core", "app/lakshyad"}) {
+  for (const char* folder : {"kernels", "hal", "app/nav", "app/core", "app/loop", "app/lakshyad"}) {
     for (const fs::path& path : files_below(folder)) {
       if (path.filename() != "CMakeLists.txt" && path.extension() != ".cmake") continue;
       EXPECT_FALSE(cmake_names_opencv(read(path))) << path;
@@ -152,6 +153,14 @@ std::string output_of(const std::string& command) {
   while (pipe && std::fgets(buffer.data(), buffer.size(), pipe.get()) != nullptr)
     output += buffer.data();
   return output;
+}
+
+TEST_F(Layering, TheFirmwareLoadsNoOpenCv) {
+  const char* firmware = std::getenv("LAKSHYAD_BIN");
+  if (firmware == nullptr) GTEST_SKIP() << "LAKSHYAD_BIN is not set: no build to look at";
+  const std::string section = output_of("readelf -d '" + std::string(firmware) + "' 2>/dev/null");
+  if (section.find("NEEDED") == std::string::npos) GTEST_SKIP() << "it is not built, or readelf is not installed";
+  EXPECT_FALSE(names_opencv(section));
 }
 
 // What the linker really wrote. The rectification test compares with OpenCV and is the one exception.

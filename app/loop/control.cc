@@ -161,7 +161,7 @@ void Control::take_drive(Nanoseconds now) {
     if (travel.time != before.time) {
       way_m_ += (std::abs(travel.left_m - before.left_m) + std::abs(travel.right_m - before.right_m)) / 2;
       (void)odometry_.add(travel);
-      (void)odometry_.pose(pose_);
+      if (odometry_.pose(pose_) == Status::ok) yaw_.add(pose_.time, pose_.yaw);
     }
   }
   const bool has_travel = now - drive_.travel.time <= kOldestNews;
@@ -197,7 +197,7 @@ bool Control::has_ended() const {
 }
 
 void Control::tell(Nanoseconds now, bool has_new_plan) {
-  exchange_->nav.writing() = {pose_, target_};
+  exchange_->nav.writing() = {pose_, target_, yaw_};
   (void)exchange_->nav.publish();
   for (const StateNote& note : machine_.notes())
     (void)exchange_->notes.push(note);

@@ -85,6 +85,7 @@ class Control {
   EventSet faults_;
   EventSet counted_;  // those of the turn before
   PoseSample pose_;
+  YawHistory yaw_;
   std::size_t way_point_ = 0;
   double target_ = 0;
   bool has_goal_ = false;

@@ -7,6 +7,7 @@
 #include "app/loop/ring.h"
 #include "app/loop/safety_machine.h"
 #include "app/loop/triple_buffer.h"
+#include "app/loop/yaw_history.h"
 #include "app/nav/planner.h"
 #include "hal/camera.h"
 #include "hal/compass.h"
@@ -50,6 +51,7 @@ struct HeadingNote {
 struct NavNote {
   PoseSample pose;
   double target = 0;  // rad, from straight ahead of that pose
+  YawHistory yaw;
 };
 
 // Perception to control: what a pair gave.

@@ -35,9 +35,9 @@ void Perception::warm_up() {
   }
 }
 
-PlanInput Perception::input(const NavNote& nav) const {
-  const double turned = wrapped_angle(nav.pose.yaw - planned_yaw_);
-  PlanInput input{.target = nav.target, .heading_change = turned};
+PlanInput Perception::input(const PlanNote& plan) const {
+  const double turned = wrapped_angle(plan.pose.yaw - planned_yaw_);
+  PlanInput input{.target = plan.target, .heading_change = turned};
   if (has_direction_) input.previous = wrapped_angle(direction_ - turned);
   return input;
 }
@@ -62,17 +62,14 @@ bool Perception::step(PlanNote& plan) {
   const RawPair& raw = exchange_->raw.reading();
   (void)exchange_->nav.take();
   const NavNote& nav = exchange_->nav.reading();
-  plan = {.number = raw.number,
-          .taken = raw.taken,
-          .arrived = raw.arrived,
-          .started = clock_->now(),
-          .pose = nav.pose,
-          .target = nav.target};
+  plan = {.number = raw.number, .taken = raw.taken, .arrived = raw.arrived, .started = clock_->now(), .pose = nav.pose};
+  plan.pose.yaw = nav.yaw.at_time(raw.taken);
+  plan.target = wrapped_angle(nav.target + nav.pose.yaw - plan.pose.yaw);
   exchange_->working_since.store(plan.started, std::memory_order_release);
-  plan.status = pipeline_->process(raw.left, raw.right, input(nav), result_);
+  plan.status = pipeline_->process(raw.left, raw.right, input(plan), result_);
   if (plan.status == Status::ok) {
     describe(plan);
-    planned_yaw_ = nav.pose.yaw;
+    planned_yaw_ = plan.pose.yaw;
     has_direction_ = !plan.blocked;
     direction_ = plan.direction;
     if (sink_ != nullptr) sink_->on_frame(result_, plan);

@@ -37,7 +37,7 @@ class Perception {
   const StageTimes& times() const { return pipeline_->times(); }
 
  private:
-  PlanInput input(const NavNote& nav) const;
+  PlanInput input(const PlanNote& plan) const;
   void describe(PlanNote& plan) const;
 
   const VehicleConfig* config_;
