@@ -22,9 +22,9 @@ struct LoopConfig {
 };
 
 struct SafetyConfig {
-  double camera_silent_s = 0.14;
-  double compass_silent_s = 0.14;
-  double perception_s = 0.14;
+  double camera_silent_s = 0.13;
+  double compass_silent_s = 0.13;
+  double perception_s = 0.13;
   double plan_age_s = 0.25;
   double control_late_s = 0.06;
   double skew_s = 0.01;

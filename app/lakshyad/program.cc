@@ -1,8 +1,11 @@
 #include "app/lakshyad/program.h"
 
+#include <fcntl.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <exception>
 
 #include "app/core/input_error.h"
@@ -13,6 +16,13 @@ namespace {
 constexpr int kOk = 0;
 constexpr int kRefused = 1;
 constexpr int kUsage = 2;
+
+// Standard input, output and error exist, be it as nothing: else the drives' line would be opened as one of them and get the log.
+void require_standard_streams() {
+  for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; ++fd) {
+    if (fcntl(fd, F_GETFD) < 0) (void)!::open("/dev/null", fd == STDIN_FILENO ? O_RDONLY : O_WRONLY);
+  }
+}
 
 int run(const char* name, int argc, char** argv, const std::function<void(CLI::App&)>& add_commands) {
   CLI::App app;
@@ -35,6 +45,9 @@ int run(const char* name, int argc, char** argv, const std::function<void(CLI::A
 }  // namespace
 
 int run_program(const char* name, int argc, char** argv, const std::function<void(CLI::App&)>& add_commands) {
+  require_standard_streams();
+  // Whoever read what is printed may go; the vehicle drives on.
+  (void)std::signal(SIGPIPE, SIG_IGN);
   try {
     // Messages go to stderr, so that stdout holds results only.
     spdlog::set_default_logger(spdlog::stderr_color_mt(name));

@@ -1,5 +1,6 @@
 #include "app/lakshyad/run_command.h"
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -68,30 +69,40 @@ struct ReplayOptions {
   std::string rate = "max";
 };
 
+// A recording that is slower than the safety limits allow is no camera that has fallen silent.
+void watch_at_rate(VehicleConfig& config) {
+  const double period_s = 1 / config.folder.rate_hz;
+  config.safety.camera_silent_s = std::max(config.safety.camera_silent_s, 1.3 * period_s);
+  config.safety.plan_age_s = std::max(config.safety.plan_age_s, 1.3 * (period_s + config.loop.virtual_latency_s));
+}
+
 // "max": as fast as it goes, on the virtual clock, where pairs come folder.rate_hz times a second. "real": at the times of the
 // recording. Else so many pairs a second. The last two are on the machine's clock.
 void set_rate(const std::string& rate, VehicleConfig& config, SessionOptions& session) {
   session.virtual_clock = rate == "max";
   config.folder.pace = rate == "real" ? "recorded" : "rate";
+  if (rate == "max") watch_at_rate(config);
   if (rate == "max" || rate == "real") return;
   double hz = 0;
   if (!CLI::detail::lexical_cast(rate, hz) || !(hz >= 0.01 && hz <= 1000))
     throw CLI::ValidationError("--rate", rate + " is neither max nor real nor pairs per second from 0.01 to 1000");
   config.folder.rate_hz = hz;
+  watch_at_rate(config);
 }
 
 // No vehicle: recorded pairs instead of a camera, and nobody's wheels.
-void take_source(const ReplayOptions& o, VehicleConfig& config) {
+std::uint64_t take_source(const ReplayOptions& o, VehicleConfig& config) {
   config.drivers = {
       .camera = "folder", .servo = "record", .unsupervised_speed_mps = config.drivers.unsupervised_speed_mps};
   name_recording(config, o.source, o.calibration);
   const auto pairs = static_cast<std::uint64_t>(RecordedFolder(config.folder).count());
   config.folder.repeat = o.loop.session.limits.frames > pairs ? "yes" : "no";
+  return pairs;
 }
 
 void replay(ReplayOptions o) {
   VehicleConfig config = load(o.loop);
-  take_source(o, config);
+  o.loop.session.limits.damaged = take_source(o, config);
   set_rate(o.rate, config, o.loop.session);
   o.loop.session.source = o.source[0];
   run(o.loop, config);
@@ -106,9 +117,15 @@ void add_run_command(CLI::App& app, char** argv) {
   CLI::App* command =
       app.add_subcommand("run", "Drive: camera to wheels, on the devices that the configuration names");
   add_loop_options(*command, *o);
+  command
+      ->add_option(
+          "--latch", o->session.latch,
+          "File that is there while the vehicle is in the state FAULT; a start that finds it begins in FAULT")
+      ->type_name("FILE");
   command->add_flag("--print-states", *print_states, "Print the table of states and events, and do nothing else");
   command->footer(
-      "Ends with SIGINT or SIGTERM, after the wheels have got zero. SIGUSR1 resets what waits for a person.\n"
+      "Ends with SIGINT, SIGTERM, SIGHUP or SIGQUIT, after the wheels have got zero. SIGUSR1 resets what waits for "
+      "a person.\n"
       "Example: lakshyad run --config /etc/lakshya/vehicle.yaml --way-points tour.csv --out /var/lib/lakshya/tour");
   command->callback([o, print_states, argv] {
     if (*print_states) {

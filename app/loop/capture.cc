@@ -9,10 +9,13 @@ namespace lakshya {
 
 void Capture::look_at(const StereoFrame& frame) {
   RawPair& raw = exchange_->raw.writing();
-  const std::uint64_t left = copy_and_hash(frame.left, raw.left);
-  const std::uint64_t right = copy_and_hash(frame.right, raw.right);
-  const std::uint64_t hash = left * 31 + right;
-  note_.same = note_.count > 0 && hash == hash_ && !camera_->is_static() ? note_.same + 1 : 0;
+  // Two cameras freeze one by one.
+  const std::array<std::uint64_t, 2> hash{copy_and_hash(frame.left, raw.left),
+                                          copy_and_hash(frame.right, raw.right)};
+  const bool may_freeze = note_.count > 0 && !camera_->is_static();
+  for (std::size_t eye = 0; eye < hash.size(); ++eye)
+    same_[eye] = may_freeze && hash[eye] == hash_[eye] ? same_[eye] + 1 : 0;
+  note_.same = std::max(same_[0], same_[1]);
   hash_ = hash;
 
   const BrightnessLevels levels{safety_.dark_level, safety_.bright_level};

@@ -1,6 +1,8 @@
 // The first thread's work: a pair from the camera into the loop's memory, looked at on the way.
 #pragma once
 
+#include <array>
+
 #include "app/core/loop_config.h"
 #include "app/loop/messages.h"
 #include "hal/camera.h"
@@ -25,7 +27,8 @@ class Capture {
   const Clock* clock_;
   Exchange* exchange_;
   FrameNote note_;
-  std::uint64_t hash_ = 0;
+  std::array<std::uint64_t, 2> hash_{};  // of the pair before, left and right
+  std::array<int, 2> same_{};
 };
 
 }  // namespace lakshya

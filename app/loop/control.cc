@@ -46,14 +46,23 @@ Control::Control(const VehicleConfig& config, std::vector<WayPoint> way_points, 
 
 void Control::take_headings(Nanoseconds now) {
   if (!devices_.has_compass) return;
+  const double limit = config_.safety.tilt_deg * kRadiansPerDegree;
+  bool any = false;
+  bool any_heading = false;
+  EventSet seen;  // one bad heading among several of a turn counts
   for (HeadingNote note; exchange_->headings.pop(note);) {
-    faults_.set(Event::compass_gone, note.status == Status::disconnected);
+    any = true;
+    if (note.status == Status::disconnected) seen.set(Event::compass_gone);
     if (note.status != Status::ok) continue;
+    any_heading = true;
     const HeadingSample& heading = note.sample;
     heading_time_ = heading.time;
-    faults_.set(Event::compass_jumped, odometry_.add(heading) != Status::ok);
-    const double limit = config_.safety.tilt_deg * kRadiansPerDegree;
-    faults_.set(Event::tipping, std::abs(heading.pitch) > limit || std::abs(heading.roll) > limit);
+    if (odometry_.add(heading) != Status::ok) seen.set(Event::compass_jumped);
+    if (std::abs(heading.pitch) > limit || std::abs(heading.roll) > limit) seen.set(Event::tipping);
+  }
+  if (any) faults_.set(Event::compass_gone, seen.has(Event::compass_gone));
+  for (const Event event : {Event::compass_jumped, Event::tipping}) {
+    if (any_heading) faults_.set(event, seen.has(event));
   }
   faults_.set(Event::compass_silent,
               !heading_time_ || now - *heading_time_ > nanoseconds(config_.safety.compass_silent_s));
@@ -88,17 +97,26 @@ void Control::take_frame(Nanoseconds now) {
   judge_camera(now);
 }
 
-void Control::take_plan() {
-  const PlanNote& plan = exchange_->plan.reading();
-  faults_.set(Event::perception_failed, plan.status != Status::ok);
-  if (plan.status == Status::ok) plan_ = plan;
+bool Control::take_plan() {
+  if (!exchange_->plans.pop(newest_plan_)) return false;
+  faults_.set(Event::perception_failed, newest_plan_.status != Status::ok);
+  if (newest_plan_.status == Status::ok) plan_ = newest_plan_;
   ++plans_;
+  return true;
 }
 
 void Control::judge_plan(Nanoseconds now) {
   faults_.set(Event::plan_old, !plan_ || now - plan_->taken > nanoseconds(config_.safety.plan_age_s));
+  const Nanoseconds limit = nanoseconds(config_.safety.perception_s);
   const Nanoseconds since = exchange_->working_since.load(std::memory_order_acquire);
-  faults_.set(Event::perception_late, since != 0 && now - since > nanoseconds(config_.safety.perception_s));
+  // A pair that nobody looks at is as late as one that is looked at for ever.
+  if (frame_.count <= exchange_->looked_at.load(std::memory_order_acquire)) {
+    waiting_since_.reset();
+  } else if (!waiting_since_) {
+    waiting_since_ = now;
+  }
+  const bool waits = waiting_since_ && now - *waiting_since_ > limit;
+  faults_.set(Event::perception_late, waits || (since != 0 && now - since > limit));
 }
 
 bool Control::find_goal() {
@@ -115,15 +133,28 @@ Conditions Control::judge(Nanoseconds now, Nanoseconds due) {
   // Turns that were missed are left out, so that the gap says more than the lateness.
   const Nanoseconds gap = last_turn_ ? now - *last_turn_ - kControlPeriod : 0;
   const Nanoseconds late = std::max(now - due, gap);
+  if (last_turn_) {
+    counts_.in_state[static_cast<std::size_t>(machine_.state())] += now - *last_turn_;
+    counts_.overruns += static_cast<std::uint64_t>(std::max<Nanoseconds>(gap, 0) / kControlPeriod);
+  }
   last_turn_ = now;
   faults_.set(Event::control_late, late > nanoseconds(config_.safety.control_late_s));
   const bool stops = config_.safety.recording_failed == "stop";
-  const bool failed = exchange_->recording_failed.load(std::memory_order_acquire);
+  const bool reset = exchange_->reset.exchange(false, std::memory_order_acq_rel);
+  if (reset) {
+    exchange_->fault_before.store(false, std::memory_order_release);
+    lost_decisions_ = exchange_->decisions.lost();
+  }
+  faults_.set(Event::fault_before, exchange_->fault_before.load(std::memory_order_acquire));
+  // Who does not read them any more does not write them down either.
+  const bool lost =
+      exchange_->records.load(std::memory_order_acquire) && exchange_->decisions.lost() > lost_decisions_;
+  const bool failed = lost || exchange_->recording_failed.load(std::memory_order_acquire);
   faults_.set(stops ? Event::recording_failed : Event::recording_lost, failed);
   faults_.set(Event::watchdog_failed, exchange_->watchdog_failed.load(std::memory_order_acquire));
   return {.faults = faults_,
           .has_goal = has_goal_,
-          .reset = exchange_->reset.exchange(false, std::memory_order_acq_rel),
+          .reset = reset,
           .terminate = exchange_->terminate.load(std::memory_order_acquire)};
 }
 
@@ -173,13 +204,14 @@ void Control::take_drive(Nanoseconds now) {
   faults_.set(Event::drive_gone, either(Status::disconnected));
 }
 
-void Control::command(Action action) {
+void Control::command(Action action, Nanoseconds now) {
   const WheelVelocities wheels = wanted(action);
   const bool halts = is_zero(wheels) && !is_zero(wheels_);
   wheels_ = wheels;
   DriveCommand& command = exchange_->drive_command.writing();
   command.wheels = wheels;
   command.stops = halts || action == Action::zero_and_end || action == Action::zero_now;
+  command.time = now;
   command.number = ++commands_;
   // A stop that driving has not taken yet is not replaced by a plain zero.
   const bool waits = exchange_->drive_command.is_unread() && last_command_stops_ && is_zero(wheels);
@@ -196,7 +228,7 @@ bool Control::has_ended() const {
   return (end_turns_ > 1 && confirmed) || end_turns_ >= kLastTurns;
 }
 
-void Control::tell(Nanoseconds now, bool has_new_plan) {
+void Control::tell(Nanoseconds now) {
   exchange_->nav.writing() = {pose_, target_, yaw_};
   (void)exchange_->nav.publish();
   for (const StateNote& note : machine_.notes())
@@ -219,8 +251,10 @@ void Control::tell(Nanoseconds now, bool has_new_plan) {
     status.frame_time = plan_->took;
   }
   (void)exchange_->status.publish();
-  if (!has_new_plan) return;
-  (void)exchange_->decisions.push({.plan = exchange_->plan.reading(),
+}
+
+void Control::write_down(const PlanNote& plan, Nanoseconds now) {
+  (void)exchange_->decisions.push({.plan = plan,
                                    .time = now,
                                    .state = machine_.state(),
                                    .reason = machine_.reason(),
@@ -228,12 +262,13 @@ void Control::tell(Nanoseconds now, bool has_new_plan) {
                                    .wheels = wheels_});
 }
 
-// Before everything has been heard of for the first time, something is always missing.
+// Before everything has been heard of for the first time, something is always missing; and at the end of a recording.
 void Control::count_faults() {
+  const bool has_been_heard_of = machine_.state() != State::init && machine_.state() != State::end;
   for (std::size_t i = 0; i < kEvents; ++i) {
     const auto event = static_cast<Event>(i);
     const bool begins = faults_.has(event) && !counted_.has(event);
-    if (begins && machine_.state() != State::init) ++counts_.faults[i];
+    if (begins && has_been_heard_of) ++counts_.faults[i];
   }
   counted_ = faults_;
 }
@@ -244,17 +279,19 @@ bool Control::turn(Nanoseconds due) {
   take_headings(now);
   read_estop();
   take_frame(now);
-  const bool has_new_plan = exchange_->plan.take();
-  if (has_new_plan) take_plan();
+  // Of several plans the newest counts; the others have a line of their own as they go.
+  bool has_new_plan = take_plan();
+  for (PlanNote older = newest_plan_; has_new_plan && take_plan(); older = newest_plan_)
+    write_down(older, now);
   judge_plan(now);
   take_drive(now);
   has_goal_ = find_goal();
   const Action action = machine_.step(now, judge(now, due));
   count_faults();
-  command(action);
-  tell(now, has_new_plan);
+  command(action, now);
+  tell(now);
+  if (has_new_plan) write_down(newest_plan_, now);
   counts_.took.add(clock_->now() - now);
-  if (clock_->now() - now > kControlPeriod) ++counts_.overruns;
   if (machine_.state() == State::end && end_turns_++ == 0) end_command_ = commands_;
   if (!has_ended()) return true;
   exchange_->ended.store(true, std::memory_order_release);

@@ -38,7 +38,8 @@ struct ControlDevices {
 // What there is to say when all is over.
 struct ControlCounts {
   std::uint64_t turns = 0;
-  std::uint64_t overruns = 0;                   // turns that took longer than their period
+  std::uint64_t overruns = 0;  // turns that were left out: the one before came late, or took too long
+  std::array<Nanoseconds, kStates> in_state{};
   std::array<std::uint64_t, kEvents> faults{};  // how often each began
   TimeHistogram lateness;                       // of a turn's beginning
   TimeHistogram took;
@@ -62,7 +63,7 @@ class Control {
   void take_headings(Nanoseconds now);
   void read_estop();
   void take_frame(Nanoseconds now);
-  void take_plan();
+  bool take_plan();
   void judge_camera(Nanoseconds now);
   void judge_plan(Nanoseconds now);
   Conditions judge(Nanoseconds now, Nanoseconds due);
@@ -70,9 +71,10 @@ class Control {
   bool find_goal();
   WheelVelocities wanted(Action action) const;
   void take_drive(Nanoseconds now);
-  void command(Action action);
+  void command(Action action, Nanoseconds now);
   bool has_ended() const;
-  void tell(Nanoseconds now, bool has_new_plan);
+  void tell(Nanoseconds now);
+  void write_down(const PlanNote& plan, Nanoseconds now);
   double direction_now() const;
 
   const VehicleConfig config_;
@@ -83,7 +85,8 @@ class Control {
   SafetyMachine machine_;
   WheelOdometry odometry_;
   EventSet faults_;
-  EventSet counted_;  // those of the turn before
+  EventSet counted_;                  // those of the turn before
+  std::uint64_t lost_decisions_ = 0;  // at the last reset
   PoseSample pose_;
   YawHistory yaw_;
   std::size_t way_point_ = 0;
@@ -93,9 +96,11 @@ class Control {
   std::optional<Nanoseconds> last_turn_;
 
   FrameNote frame_;
-  std::uint64_t damaged_ = 0;  // of frame_, when it was last looked at
-  double same_since_m_ = 0;    // travel when the pairs began to be the same
-  std::optional<PlanNote> plan_;
+  std::uint64_t damaged_ = 0;     // of frame_, when it was last looked at
+  double same_since_m_ = 0;       // travel when the pairs began to be the same
+  std::optional<PlanNote> plan_;  // the newest that is one
+  PlanNote newest_plan_;
+  std::optional<Nanoseconds> waiting_since_;  // a pair, for perception
   std::uint64_t plans_ = 0;
   std::optional<Nanoseconds> heading_time_;
   DriveNote drive_;

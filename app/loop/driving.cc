@@ -5,23 +5,30 @@ namespace {
 
 // What the drives may take to confirm: the slowest line needs a quarter of it, the rest is for a busy machine.
 constexpr Nanoseconds kDriveTime = 70 * kMillisecond;
+// A reading that is lost is made again; what waits may be a stop.
+constexpr Nanoseconds kTravelTime = 40 * kMillisecond;
+// Control commands every 20 ms. One that has not for so long hangs, and its last command is no longer one: the drives must not be
+// kept awake with it.
+constexpr Nanoseconds kOldestCommand = 80 * kMillisecond;
 
 }  // namespace
 
 void Driving::command() {
   (void)exchange_->drive_command.take();
   const DriveCommand& c = exchange_->drive_command.reading();
-  const Nanoseconds deadline = clock_->now() + kDriveTime;
+  const Nanoseconds now = clock_->now();
+  const Nanoseconds deadline = now + kDriveTime;
+  const bool stops = c.stops || now - c.time > kOldestCommand;
   // A stop is as fast as the drives can. Zero by drive() keeps supervised ones awake, and shows whether they answer.
-  note_.command_status = c.stops ? servo_->stop(deadline) : servo_->drive(c.wheels, deadline);
-  if (note_.command_status != Status::ok && !c.stops) (void)servo_->stop(clock_->now() + kDriveTime);
+  note_.command_status = stops ? servo_->stop(deadline) : servo_->drive(c.wheels, deadline);
+  if (note_.command_status != Status::ok && !stops) (void)servo_->stop(clock_->now() + kDriveTime);
   note_.number = c.number;
   note_.time = clock_->now();
 }
 
 void Driving::read_travel() {
   WheelTravel travel;
-  note_.travel_status = servo_->read_travel(clock_->now() + kDriveTime, travel);
+  note_.travel_status = servo_->read_travel(clock_->now() + kTravelTime, travel);
   if (note_.travel_status == Status::ok) note_.travel = travel;
 }
 

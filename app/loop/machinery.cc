@@ -44,6 +44,21 @@ std::vector<std::string> calibration_paths(const std::string& list, const std::s
   return paths;
 }
 
+// A limit, two control turns and an exchange with the drives are what stands between a fault and the wheels' zero.
+void warn_of_slow_limits(const SafetyConfig& s) {
+  constexpr double kPromise = 0.2;
+  constexpr double kRest = 0.06;
+  const std::pair<const char*, double> limits[] = {{"camera_silent_s", s.camera_silent_s},
+                                                   {"compass_silent_s", s.compass_silent_s},
+                                                   {"perception_s", s.perception_s},
+                                                   {"control_late_s", s.control_late_s}};
+  for (const auto& [name, limit_s] : limits) {
+    if (limit_s + kRest > kPromise)
+      spdlog::warn("safety.{} is {} s: the wheels get zero later than {} s after such a fault", name, limit_s,
+                   kPromise);
+  }
+}
+
 std::vector<WayPoint> way_points_of(const VehicleConfig& config) {
   if (config.mission.way_points.empty()) return {};
   return read_way_points(config.mission.way_points);
@@ -109,6 +124,7 @@ Machinery::Machinery(const VehicleConfig& config, const StereoCalibration& calib
         "are no older than that",
         config_.safety.plan_age_s, config_.vehicle.latency_s);
   }
+  warn_of_slow_limits(config_.safety);
   capture_ = std::make_unique<Capture>(config_.safety, *devices_.camera.device, clock, exchange_);
   perception_ = std::make_unique<Perception>(config_, *pipeline_, clock, exchange_);
   if (devices_.compass.device != nullptr) sensing_ = std::make_unique<Sensing>(*devices_.compass.device, exchange_);

@@ -13,6 +13,7 @@ using Counts = std::array<std::atomic<std::uint64_t>, 3>;
 thread_local WatchedPlace here = WatchedPlace::nowhere;
 thread_local std::uint64_t faults_of_inner = 0;  // page faults in the scopes inside of the present one
 std::atomic<bool> armed = false;
+std::atomic<bool> ever_armed = false;
 std::atomic<bool> hooked = false;
 Counts allocations{};
 Counts page_faults{};
@@ -47,11 +48,16 @@ void arm_memory_watch() {
     for (auto& count : *counts)
       count.store(0, std::memory_order_relaxed);
   }
+  ever_armed.store(true, std::memory_order_relaxed);
   armed.store(true, std::memory_order_release);
 }
 
 void disarm_memory_watch() {
   armed.store(false, std::memory_order_release);
+}
+
+bool memory_was_watched() {
+  return ever_armed.load(std::memory_order_relaxed);
 }
 
 bool memory_watch_armed() {

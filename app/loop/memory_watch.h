@@ -36,6 +36,7 @@ void watch_this_thread(WatchedPlace place);
 void arm_memory_watch();
 void disarm_memory_watch();
 bool memory_watch_armed();
+bool memory_was_watched();  // it was armed at any time
 
 // Since then. Allocations are always 0 where the hook is not linked (sanitizers have hooks of their own).
 std::uint64_t allocations_at(WatchedPlace place);

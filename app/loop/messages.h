@@ -27,7 +27,7 @@ struct FrameNote {
   Nanoseconds skew = 0;       // between its two eyes
   double dark = 0;            // share of black pixels, of the eye that has more
   double bright = 0;          // the same of saturated ones
-  int same = 0;               // how many pairs before it in a row were just the same
+  int same = 0;               // how many images before it in a row were just the same, of the eye that has more
   std::uint64_t damaged = 0;  // captures that gave a pair nobody can use, so far
   bool over = false;          // the recording has ended
 };
@@ -80,6 +80,7 @@ struct PlanNote {
 struct DriveCommand {
   WheelVelocities wheels;
   bool stops = true;         // as fast as the drives can; `wheels` are zero
+  Nanoseconds time = 0;      // of the control turn
   std::uint64_t number = 0;  // counted from 1
 };
 
@@ -130,20 +131,23 @@ struct Exchange {
   TripleBuffer<RawPair> raw;
   TripleBuffer<FrameNote> frame;
   TripleBuffer<NavNote> nav;
-  TripleBuffer<PlanNote> plan;
   TripleBuffer<DriveCommand> drive_command;
   TripleBuffer<DriveNote> drive;
   TripleBuffer<StatusNote> status;
   TripleBuffer<MapNote> map;
+  Ring<PlanNote, 64> plans;
   Ring<HeadingNote, 64> headings;
   Ring<Decision, 256> decisions;
   Ring<StateNote, 256> notes;
 
   std::atomic<std::uint64_t> dropped = 0;      // pairs that perception never looked at
   std::atomic<Nanoseconds> working_since = 0;  // perception, on one pair; 0: it waits
+  std::atomic<std::uint64_t> looked_at = 0;    // number of the newest pair that perception has begun
   std::atomic<bool> drive_is_urgent = false;   // the newest command is a stop
   std::atomic<bool> terminate = false;
   std::atomic<bool> reset = false;
+  std::atomic<bool> fault_before = false;  // until the first reset
+  std::atomic<bool> records = false;       // somebody writes the decisions down
   std::atomic<bool> recording_failed = false;
   std::atomic<bool> watchdog_failed = false;
   std::atomic<bool> ended = false;  // control: the wheels have got their last zero

@@ -62,9 +62,11 @@ bool Perception::step(PlanNote& plan) {
   const RawPair& raw = exchange_->raw.reading();
   (void)exchange_->nav.take();
   const NavNote& nav = exchange_->nav.reading();
-  plan = {.number = raw.number, .taken = raw.taken, .arrived = raw.arrived, .started = clock_->now(), .pose = nav.pose};
+  plan = {
+      .number = raw.number, .taken = raw.taken, .arrived = raw.arrived, .started = clock_->now(), .pose = nav.pose};
   plan.pose.yaw = nav.yaw.at_time(raw.taken);
   plan.target = wrapped_angle(nav.target + nav.pose.yaw - plan.pose.yaw);
+  exchange_->looked_at.store(raw.number, std::memory_order_release);
   exchange_->working_since.store(plan.started, std::memory_order_release);
   plan.status = pipeline_->process(raw.left, raw.right, input(plan), result_);
   if (plan.status == Status::ok) {
@@ -81,8 +83,7 @@ bool Perception::step(PlanNote& plan) {
 }
 
 void Perception::publish(const PlanNote& plan) {
-  exchange_->plan.writing() = plan;
-  (void)exchange_->plan.publish();
+  (void)exchange_->plans.push(plan);
   if (!copies_maps_ || plan.status != Status::ok) return;
   MapNote& map = exchange_->map.writing();
   map.plan = plan;

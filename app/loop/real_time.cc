@@ -36,7 +36,11 @@ void require_openmp_settings(char** argv) {
 }
 
 std::string lock_memory() {
-  if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return {};
+  // With MCL_FUTURE an allocation beyond the limit fails, in the middle of the drive.
+  rlimit limit{};
+  const bool unlimited =
+      geteuid() == 0 || (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY);
+  if (mlockall(unlimited ? MCL_CURRENT | MCL_FUTURE : MCL_CURRENT) == 0) return {};
   return std::strerror(errno);
 }
 

@@ -16,6 +16,7 @@ inline constexpr std::size_t kThreadStackBytes = 256 * 1024;
 // SCHED_FIFO's; 0: the ordinary kind. The image processing's threads stay ordinary: the kernel's own threads that carry USB and
 // serial bytes are ordinary, too, and a team that takes every processor must not hold them up.
 inline constexpr int kOrdinary = 0;
+inline constexpr int kSupervisorPriority = 25;
 inline constexpr int kCapturePriority = 30;
 inline constexpr int kSensingPriority = 32;
 inline constexpr int kDrivingPriority = 35;
@@ -26,7 +27,8 @@ inline constexpr int kControlPriority = 40;
 // that fails.
 void require_openmp_settings(char** argv);
 
-// All present and future memory of the process stays in RAM. Empty: done; else why not.
+// All memory of the process stays in RAM; memory that it takes later, too, where no limit could make that fail. Empty: done; else why
+// not.
 std::string lock_memory();
 
 // A thread with a small stack, which it touches to its end before it begins.

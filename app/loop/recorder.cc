@@ -30,6 +30,16 @@ std::string number(double value, int digits) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "null";
 }
 
+// What a restart after a crash must not wipe out.
+void keep_old(const std::string& folder, const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::file_size(path, ignored) == 0 || ignored) return;
+  int n = 1;
+  while (std::filesystem::exists(fmt::format("{}/decisions.{}.jsonl", folder, n), ignored))
+    ++n;
+  std::filesystem::rename(path, fmt::format("{}/decisions.{}.jsonl", folder, n), ignored);
+}
+
 }  // namespace
 
 std::string decision_line(const Decision& d, Nanoseconds start) {
@@ -53,13 +63,14 @@ std::string decision_line(const Decision& d, Nanoseconds start) {
   return line;
 }
 
-Recorder::Recorder(const std::string& folder, std::uint64_t picture_every)
+Recorder::Recorder(const std::string& folder, std::uint64_t picture_every, bool keeps_old)
     : folder_(folder), picture_every_(picture_every) {
   if (folder.empty()) return;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw InputError(folder, "cannot be made: " + error.message() + " (choose another --out)");
   const std::string path = folder + "/decisions.jsonl";
+  if (keeps_old) keep_old(folder, path);
   fd_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (fd_ < 0)
     throw InputError(path, std::string("cannot be written: ") + std::strerror(errno) + " (choose another --out)");
@@ -90,6 +101,7 @@ bool Recorder::write(const Decision& decision, Nanoseconds start) {
 
 bool Recorder::write_map(ImageView<const std::uint8_t> type, const PlanNote& plan, const VehicleConfig& config) {
   if (!is_on() || failed_) return !failed_;
+  next_picture_ = plan.number + picture_every_;
   try {
     write_png(fmt::format("{}/map_{:06}.png", folder_, plan.number), loop_map_picture(type, plan, config).view());
   } catch (const InputError& e) {

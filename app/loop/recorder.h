@@ -11,20 +11,24 @@ namespace lakshya {
 class Recorder {
  public:
   // An empty folder name records nothing. Throws InputError where the folder cannot be made or written.
-  // picture_every: a map picture for every so many plans; 0: none.
-  Recorder(const std::string& folder, std::uint64_t picture_every);
+  // picture_every: a map picture for every so many plans; 0: none. keeps_old: decisions.jsonl of a run before becomes
+  // decisions.1.jsonl, .2. and so on; else it is replaced.
+  Recorder(const std::string& folder, std::uint64_t picture_every, bool keeps_old = false);
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
   bool is_on() const { return fd_ >= 0; }
   bool wants_picture(std::uint64_t number) const {
-    return is_on() && picture_every_ > 0 && (number - 1) % picture_every_ == 0;
+    return is_on() && picture_every_ > 0 && number >= next_picture_;
   }
 
   // False: it could not be written; from then on nothing more is, and problem() says why.
   bool write(const Decision& decision, Nanoseconds start);
   bool write_map(ImageView<const std::uint8_t> type, const PlanNote& plan, const VehicleConfig& config);
+
+  // After a failure: from now on there is room again.
+  void try_again() { failed_ = false; }
 
   bool has_failed() const { return failed_; }
   const std::string& problem() const { return problem_; }
@@ -35,6 +39,7 @@ class Recorder {
 
   std::string folder_;
   std::uint64_t picture_every_;
+  std::uint64_t next_picture_ = 0;
   int fd_ = -1;
   bool failed_ = false;
   std::string problem_;

@@ -69,19 +69,10 @@ Json states(const RunRecord& record) {
 }
 
 // How long the vehicle was in each state.
-Json state_times(const RunRecord& record) {
-  std::array<Nanoseconds, kStates> total{};
-  Nanoseconds since = record.start;
-  State state = State::init;
-  for (const StateNote& note : record.notes) {
-    total[static_cast<std::size_t>(state)] += note.time - since;
-    since = note.time;
-    state = note.to;
-  }
-  total[static_cast<std::size_t>(state)] += record.end - since;
+Json state_times(const ControlCounts& counts) {
   Json json;
   for (std::size_t i = 0; i < kStates; ++i)
-    json[to_string(static_cast<State>(i))] = seconds(total[i]);
+    json[to_string(static_cast<State>(i))] = seconds(counts.in_state[i]);
   return json;
 }
 
@@ -106,17 +97,18 @@ Json run_report(const Machinery& m, const Exchange& x, const RunRecord& record) 
   json["arena_bytes"] = m.arena_bytes();
   json["rss_bytes"] = resident_bytes();
   json["rss_peak_bytes"] = most_resident_bytes();
-  if (allocations_are_counted()) {
+  if (allocations_are_counted() && memory_was_watched()) {
     json["allocations_after_ready"] = allocations_at(WatchedPlace::loop);
     json["allocations_decoding"] = allocations_at(WatchedPlace::decoding);
   } else {
-    json["allocations_after_ready"] = nullptr;  // nobody counted
+    json["allocations_after_ready"] = nullptr;  // nobody counted, or it was never READY
   }
   json["page_faults_after_ready"] = page_faults_at(WatchedPlace::loop);
   json["faults"] = faults(counts);
   json["states"] = states(record);
-  json["state_s"] = state_times(record);
-  json["lost_log_lines"] = record.notes_left_out + x.notes.lost();
+  json["state_s"] = state_times(counts);
+  json["states_left_out"] = record.notes_left_out;
+  json["lost_log_lines"] = x.notes.lost();
   json["lost_decisions"] = x.decisions.lost();
   json["devices"] = {{"camera", counters(m.devices().camera.device.get())},
                      {"servo", counters(m.devices().servo.device.get())},

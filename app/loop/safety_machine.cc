@@ -25,8 +25,8 @@ void SafetyMachine::apply(Event event, Nanoseconds now, bool is_new) {
   state_ = t.next;
   // Several events may come in one step: zero is not taken back by a later one that changes nothing.
   if (from != t.next || action_ != Action::zero_now) action_ = t.action;
-  // Before everything has been heard of for the first time, something is always missing.
-  const bool is_news = is_new && kind_of(event) != Kind::course && from != State::init;
+  // Before everything has been heard of for the first time, something is always missing; and at the end of a recording.
+  const bool is_news = is_new && kind_of(event) != Kind::course && from != State::init && from != State::end;
   if (from != t.next || is_news) note(event, from, now);
   if (kind_of(event) == Kind::course) {
     if (from != t.next) reason_ = event == Event::terminate ? event : Event::all_well;

@@ -75,6 +75,8 @@ constexpr std::array<Row, kEvents> kRows{{
     {Event::tipping, Kind::latches, "tipping", "pitch or roll is greater than safety.tilt_deg", kLatches},
     {Event::recording_failed, Kind::latches, "recording_failed",
      "the recording cannot be written, and must not be lost", kLatches},
+    {Event::fault_before, Kind::latches, "fault_before", "the program was killed, or crashed, in the state FAULT",
+     kLatches},
 }};
 
 constexpr bool rows_are_in_order() {

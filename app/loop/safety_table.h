@@ -53,8 +53,9 @@ enum class Event : std::uint8_t {
   emergency_stop,
   tipping,
   recording_failed,
+  fault_before,
 };
-inline constexpr std::size_t kEvents = 28;
+inline constexpr std::size_t kEvents = 29;
 
 // What kind of thing an event is; the table's rows follow from it.
 enum class Kind : std::uint8_t { course, slows, stops, latches };
@@ -88,6 +89,11 @@ std::string states_text();
 
 constexpr bool may_drive(State state) {
   return state == State::run || state == State::degraded;
+}
+
+// Everything has been heard of.
+constexpr bool has_been_ready(State state) {
+  return state == State::ready || state == State::stop || may_drive(state);
 }
 
 // All events that are faults and last, as a set.

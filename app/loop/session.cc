@@ -4,7 +4,9 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <iostream>
+#include <utility>
 
 #include "app/core/devices.h"
 #include "app/core/file_bytes.h"
@@ -25,17 +27,20 @@ namespace {
 // What the caller's thread does beside the loop: it shows and writes what the others tell.
 class Secretary final : public FrameSink {
  public:
-  Secretary(Machinery& machinery, Recorder& recorder, RunRecord& record)
+  Secretary(Machinery& machinery, Recorder& recorder, RunRecord& record, std::string latch)
       : m_(&machinery),
         x_(&machinery.exchange()),
         recorder_(&recorder),
         record_(&record),
-        line_(isatty(STDERR_FILENO) != 0, record.start) {}
+        line_(isatty(STDERR_FILENO) != 0, record.start),
+        latch_(std::move(latch)),
+        is_latched_(!latch_.empty() && machinery.exchange().fault_before.load()) {}
 
   void keep_house() {
     StateNote note;
     while (x_->notes.pop(note)) {
       line_.log(note);
+      state_ = note.to;
       if (record_->notes.size() < RunRecord::kMostNotes) {
         record_->notes.push_back(note);
       } else {
@@ -46,6 +51,7 @@ class Secretary final : public FrameSink {
     while (x_->decisions.pop(decision))
       (void)recorder_->write(decision, record_->start);
     if (x_->map.take() && recorder_->wants_picture(x_->map.reading().plan.number)) draw(x_->map.reading());
+    keep_latch();
     if (recorder_->has_failed() && !told_failure_) {
       spdlog::error("recording: {}", recorder_->problem());
       told_failure_ = true;
@@ -55,6 +61,13 @@ class Secretary final : public FrameSink {
     record_->end = x_->status.reading().time;
   }
 
+  // A person has looked: there may be room again.
+  void try_again() {
+    recorder_->try_again();
+    told_failure_ = false;
+    x_->recording_failed.store(false);
+  }
+
   // On the virtual clock every map can be drawn; on the machine's, those that are there when there is time.
   void on_frame(const FrameResult& frame, const PlanNote& plan) override {
     const MemoryWatch not_the_loops(WatchedPlace::nowhere);
@@ -62,6 +75,24 @@ class Secretary final : public FrameSink {
   }
 
  private:
+  // While the vehicle is in FAULT there is a file, so that a crash does not end what only a person may end.
+  void keep_latch() {
+    if (latch_.empty()) return;
+    const bool latched = state_ == State::fault;
+    if (latched == is_latched_) return;
+    is_latched_ = latched;
+    std::error_code ignored;
+    if (!latched) {
+      std::filesystem::remove(latch_, ignored);
+      return;
+    }
+    try {
+      write_file_atomically(latch_, "FAULT\n");
+    } catch (const InputError& e) {
+      spdlog::error("{}", e.what());
+    }
+  }
+
   void draw(const MapNote& map) { (void)recorder_->write_map(map.type, map.plan, m_->config()); }
 
   Machinery* m_;
@@ -70,11 +101,21 @@ class Secretary final : public FrameSink {
   RunRecord* record_;
   StatusLine line_;
   bool told_failure_ = false;
+  const std::string latch_;
+  bool is_latched_;
+  State state_ = State::init;
 };
 
-void run_on_virtual_clock(Machinery& m, SteppedClock& clock, const SessionOptions& o, Recorder& recorder,
-                          RunRecord& record) {
-  Secretary secretary(m, recorder, record);
+std::unique_ptr<Recorder> make_recorder(Machinery& m, const SessionOptions& o) {
+  auto recorder = std::make_unique<Recorder>(o.out, o.picture_every, !o.virtual_clock);
+  m.exchange().records.store(recorder->is_on());
+  return recorder;
+}
+
+void run_on_virtual_clock(Machinery& m, SteppedClock& clock, const SessionOptions& o, RunRecord& record) {
+  const std::unique_ptr<Recorder> made = make_recorder(m, o);
+  Recorder& recorder = *made;
+  Secretary secretary(m, recorder, record, o.latch);
   m.perception().show(&secretary);
   run_stepped(m, clock, o.limits, [&] { secretary.keep_house(); });
   secretary.keep_house();
@@ -87,14 +128,14 @@ std::unique_ptr<SystemdWatchdog> open_systemd() {
   return systemd;
 }
 
-void run_on_machine_clock(Machinery& m, Clock& clock, const SessionOptions& o, Recorder& recorder,
-                          RunRecord& record) {
-  Secretary secretary(m, recorder, record);
-  m.perception().copy_maps(recorder.is_on());
+void run_on_machine_clock(Machinery& m, Clock& clock, const SessionOptions& o, RunRecord& record) {
   const std::unique_ptr<SystemdWatchdog> systemd = open_systemd();
   const Made<Watchdog> machine = make_watchdog(m.config(), clock);
   if (machine.device != nullptr && machine.device->open() != Status::ok)
     throw InputError("drivers.watchdog: " + m.config().drivers.watchdog, machine.device->problem());
+  const std::unique_ptr<Recorder> recorder = make_recorder(m, o);
+  Secretary secretary(m, *recorder, record, o.latch);
+  m.perception().copy_maps(recorder->is_on());
   ThreadedHooks hooks;
   if (systemd != nullptr) hooks.watchdogs.push_back(systemd.get());
   if (machine.device != nullptr) hooks.watchdogs.push_back(machine.device.get());
@@ -106,18 +147,29 @@ void run_on_machine_clock(Machinery& m, Clock& clock, const SessionOptions& o, R
         not_locked);
   }
   State told = State::end;
+  hooks.before_reset = [&] { secretary.try_again(); };
   hooks.housekeeping = [&] {
     secretary.keep_house();
-    const State state = m.exchange().status.reading().state;
-    if (systemd == nullptr || state == told) return;
+    const StatusNote& status = m.exchange().status.reading();
+    if (systemd == nullptr || status.turns == 0 || status.state == told) return;
     if (told == State::end) (void)systemd->ready();
-    told = state;
-    (void)systemd->say(to_string(state));
+    told = status.state;
+    (void)systemd->say(to_string(told));
   };
   run_threaded(m, clock, o.limits, hooks);
   secretary.keep_house();
   if (systemd != nullptr) systemd->close();
   if (machine.device != nullptr) machine.device->close();
+  if (recorder->is_on()) spdlog::info("recorded in {}: decisions.jsonl and map_*.png", recorder->folder());
+}
+
+// Hours later is too late to find out.
+void require_writable(const std::string& report) {
+  if (report.empty()) return;
+  std::error_code error;
+  const std::string probe = report + ".probe";
+  write_file_atomically(probe, "");
+  std::filesystem::remove(probe, error);
 }
 
 }  // namespace
@@ -129,7 +181,9 @@ void run_session(const VehicleConfig& config, const SessionOptions& o, const Ker
   Clock& clock = o.virtual_clock ? static_cast<Clock&>(virtual_clock) : machine_clock;
   const StereoCalibration calibration = loop_calibration(config, o.config_path);
   Machinery machinery(config, calibration, make_devices(config, clock), kernels, clock, machine_clock);
-  Recorder recorder(o.out, o.picture_every);
+  require_writable(o.report);
+  std::error_code ignored;
+  machinery.exchange().fault_before.store(!o.latch.empty() && std::filesystem::exists(o.latch, ignored));
 
   RunRecord record;
   record.source = o.source;
@@ -137,20 +191,15 @@ void run_session(const VehicleConfig& config, const SessionOptions& o, const Ker
   record.start = record.end = clock.now();
   const Nanoseconds began = machine_clock.now();
   if (o.virtual_clock) {
-    run_on_virtual_clock(machinery, virtual_clock, o, recorder, record);
+    run_on_virtual_clock(machinery, virtual_clock, o, record);
   } else {
-    run_on_machine_clock(machinery, machine_clock, o, recorder, record);
+    run_on_machine_clock(machinery, machine_clock, o, record);
   }
   record.wall_s = static_cast<double>(machine_clock.now() - began) / 1e9;
 
   const nlohmann::ordered_json report = run_report(machinery, machinery.exchange(), record);
+  std::cout << (o.json ? report.dump() + "\n" : report_text(report)) << std::flush;
   if (!o.report.empty()) write_file_atomically(o.report, report.dump(2) + "\n");
-  if (o.json) {
-    std::cout << report.dump() << '\n';
-  } else {
-    std::cout << report_text(report);
-    if (recorder.is_on()) std::cout << "results: " << recorder.folder() << "/decisions.jsonl and map_*.png\n";
-  }
 }
 
 }  // namespace lakshya

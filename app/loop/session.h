@@ -16,6 +16,7 @@ struct SessionOptions {
   bool virtual_clock = false;
   RunLimits limits;
   std::string report;               // file; empty: none
+  std::string latch;                // file that keeps the state FAULT over a crash; empty: none
   std::string out;                  // folder; empty: none
   std::uint64_t picture_every = 1;  // with `out`: a map picture for every so many plans; 0: none
   bool json = false;                // the report to stdout as JSON

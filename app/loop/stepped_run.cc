@@ -41,7 +41,7 @@ class SteppedRun {
     for (bool goes_on = true; goes_on; due = next_turn(due, clock_->now())) {
       capture_until(due);
       goes_on = control(due);
-      if (!memory_watch_armed() && m_->control().state() >= State::ready) arm_memory_watch();
+      if (!memory_watch_armed() && has_been_ready(m_->control().state())) arm_memory_watch();
       after_turn();
     }
   }
@@ -58,9 +58,11 @@ class SteppedRun {
 
   void capture_and_process(Nanoseconds deadline) {
     const Status status = capture(deadline);
+    damaged_ = status == Status::bad_data ? damaged_ + 1 : 0;
+    const bool hopeless = limits_.damaged > 0 && damaged_ >= limits_.damaged;
     if (status == Status::ok) {
       process();
-    } else if (status == Status::end_of_data) {
+    } else if (status == Status::end_of_data || hopeless) {
       over_ = true;
     } else if (status != Status::timeout) {
       clock_->sleep_until(std::min(deadline, clock_->now() + kMillisecond));  // a camera that fails at once
@@ -103,6 +105,7 @@ class SteppedRun {
   const Nanoseconds latency_;
   const WatchedPlace decodes_;
   PendingPlans pending_;
+  std::uint64_t damaged_ = 0;  // captures in a row
   bool over_ = false;
 };
 

@@ -11,7 +11,8 @@
 namespace lakshya {
 
 struct RunLimits {
-  std::uint64_t frames = 0;  // ends after so many; 0: with the recording, or never
+  std::uint64_t frames = 0;   // ends after so many; 0: with the recording, or never
+  std::uint64_t damaged = 0;  // ends after so many captures in a row that gave damaged pairs; 0: never
 };
 
 // `clock` is the one that the machinery was given. Pairs are captured when they are due; each is processed at once, and its plan

@@ -6,9 +6,13 @@
 #include <sys/signalfd.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <csignal>
 #include <exception>
+#include <iterator>
+#include <optional>
 
 #include "app/core/input_error.h"
 #include "app/loop/memory_watch.h"
@@ -18,6 +22,7 @@ namespace lakshya {
 namespace {
 
 constexpr Nanoseconds kWait = 50 * kMillisecond;  // of threads that have nothing to do
+constexpr Nanoseconds kLongestStart = 30 * kSecond;
 constexpr Nanoseconds kPause = 5 * kMillisecond;  // before a device that fails at once is asked again
 
 // A file descriptor that is closed again.
@@ -39,7 +44,13 @@ class Descriptor {
 class Signals {
  public:
   Signals() : fd_(make(), "signals") {}
-  ~Signals() { (void)pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  // Those that have come since are forgotten: they asked for the end that has come.
+  ~Signals() {
+    signalfd_siginfo info{};
+    while (::read(fd_.get(), &info, sizeof info) == sizeof info) {
+    }
+    (void)pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
   Signals(const Signals&) = delete;
   Signals& operator=(const Signals&) = delete;
 
@@ -54,7 +65,7 @@ class Signals {
   int make() {
     sigset_t wanted;
     sigemptyset(&wanted);
-    for (const int signal : {SIGINT, SIGTERM, SIGUSR1})
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1})
       sigaddset(&wanted, signal);
     (void)pthread_sigmask(SIG_BLOCK, &wanted, &before_);
     return signalfd(-1, &wanted, SFD_NONBLOCK | SFD_CLOEXEC);
@@ -71,33 +82,58 @@ class ThreadedRun {
 
   void run() {
     const Signals signals;
-    Thread perception("perception", kOrdinary, [this] { perceive(); });
-    Thread capture("capture", kCapturePriority, [this] { capture_all(); });
-    Thread sensing("sensing", kSensingPriority, [this] { sense_all(); });
-    Thread driving("driving", kDrivingPriority, [this] { drive_all(); });
-    Thread control("control", kControlPriority, [this] { control_all(); });
-    bool warned = false;
+    signals_ = &signals;
+    start();
     while (!x_->ended.load(std::memory_order_acquire)) {
-      const int signal = signals.wait(*clock_, clock_->now() + kWait);
-      if (signal == SIGUSR1) x_->reset.store(true);
-      if (signal == SIGINT || signal == SIGTERM) {
-        spdlog::info("asked to end by {}", signal == SIGINT ? "SIGINT" : "SIGTERM");
-        x_->terminate.store(true);
+      clock_->sleep_until(clock_->now() + kWait);
+      warn_of_priorities();
+      if (wants_reset_.exchange(false)) {
+        if (hooks_->before_reset) hooks_->before_reset();
+        x_->reset.store(true);
       }
-      if (!warned && (!capture.has_priority() || !driving.has_priority() || !control.has_priority())) {
-        spdlog::warn(
-            "no real-time priority (SCHED_FIFO): control turns may come late when the machine is busy (run as "
-            "a service, or with CAP_SYS_NICE or LimitRTPRIO)");
-        warned = true;
-      }
-      kick_watchdogs();
-      end_with_the_recording();
       keep_house();
     }
+    for (std::optional<Thread>& thread : threads_)
+      thread.reset();
     if (failure_) std::rethrow_exception(failure_);
   }
 
  private:
+  // All threads or none.
+  void start() {
+    struct Work {
+      const char* name;
+      int priority;
+      void (ThreadedRun::*work)();
+    };
+    constexpr Work kWork[] = {{"perception", kOrdinary, &ThreadedRun::perceive},
+                              {"capture", kCapturePriority, &ThreadedRun::capture_all},
+                              {"sensing", kSensingPriority, &ThreadedRun::sense_all},
+                              {"driving", kDrivingPriority, &ThreadedRun::drive_all},
+                              {"control", kControlPriority, &ThreadedRun::control_all},
+                              {"supervisor", kSupervisorPriority, &ThreadedRun::supervise}};
+    static_assert(std::size(kWork) == kThreads);
+    try {
+      for (std::size_t i = 0; i < kThreads; ++i) {
+        const Work& w = kWork[i];
+        threads_[i].emplace(w.name, w.priority, [this, work = w.work] { (this->*work)(); });
+      }
+    } catch (...) {
+      x_->ended.store(true, std::memory_order_release);
+      throw;
+    }
+  }
+
+  void warn_of_priorities() {
+    const auto lacks = [](const std::optional<Thread>& thread) { return thread && !thread->has_priority(); };
+    if (warned_ || std::ranges::none_of(threads_, lacks)) return;
+    spdlog::warn(
+        "no real-time priority (SCHED_FIFO): control turns may come late when the machine is busy (run as a "
+        "service, or "
+        "with CAP_SYS_NICE or LimitRTPRIO)");
+    warned_ = true;
+  }
+
   // What fails here must not leave the wheels turning: the run ends in order first.
   void keep_house() {
     if (failure_) return;
@@ -109,6 +145,26 @@ class ThreadedRun {
     }
   }
 
+  // Signals and watchdogs, in a thread that never waits for a disk or a terminal.
+  void supervise() {
+    begun_ = clock_->now();
+    while (!x_->ended.load(std::memory_order_acquire)) {
+      const int signal = signals_->wait(*clock_, clock_->now() + kWait);
+      if (signal == SIGUSR1) {
+        wants_reset_.store(true);
+      } else if (signal != 0) {
+        x_->terminate.store(true);
+      }
+      kick_watchdogs();
+      end_with_the_recording();
+    }
+  }
+
+  void wait_until_warm() {
+    while (!warm_.load(std::memory_order_acquire) && !x_->ended.load(std::memory_order_acquire))
+      clock_->sleep_until(clock_->now() + kMillisecond);
+  }
+
   Status capture_one(WatchedPlace place) {
     const MemoryWatch watch(place);
     return m_->capture().step(clock_->now() + kWait);
@@ -116,17 +172,20 @@ class ThreadedRun {
 
   void capture_all() {
     const WatchedPlace place = m_->capture_decodes() ? WatchedPlace::decoding : WatchedPlace::loop;
+    wait_until_warm();  // which writes into the memory of the pairs
+    std::uint64_t damaged = 0;
     while (!x_->ended.load(std::memory_order_acquire)) {
       const Status status = capture_one(place);
       if (status == Status::ok) {
         const std::uint64_t one = 1;
         (void)!::write(new_pair_.get(), &one, sizeof one);
-      } else if (status == Status::end_of_data) {
+      }
+      damaged = status == Status::bad_data ? damaged + 1 : 0;
+      if (status == Status::end_of_data || (limits_.damaged > 0 && damaged >= limits_.damaged)) {
         over_.store(true, std::memory_order_release);
         return;
-      } else if (status != Status::timeout) {
-        clock_->sleep_until(clock_->now() + kPause);
       }
+      if (status != Status::ok && status != Status::timeout) clock_->sleep_until(clock_->now() + kPause);
     }
   }
 
@@ -160,6 +219,7 @@ class ThreadedRun {
   }
 
   void sense_all() {
+    wait_until_warm();  // old headings would be the first
     while (m_->sensing() != nullptr && !x_->ended.load(std::memory_order_acquire)) {
       const Status status = sense_one();
       if (status != Status::ok && status != Status::timeout) clock_->sleep_until(clock_->now() + kPause);
@@ -191,21 +251,22 @@ class ThreadedRun {
   }
 
   void control_all() {
-    while (!warm_.load(std::memory_order_acquire))
-      clock_->sleep_until(clock_->now() + kMillisecond);
+    wait_until_warm();
     Nanoseconds due = clock_->now();
     while (turn(due)) {
       turns_.fetch_add(1, std::memory_order_release);
-      if (!memory_watch_armed() && m_->control().state() >= State::ready) arm_memory_watch();
+      if (!memory_watch_armed() && has_been_ready(m_->control().state())) arm_memory_watch();
       due = next_turn(due, clock_->now());
       clock_->sleep_until(due);
     }
     disarm_memory_watch();
   }
 
+  // As long as control turns; before its first turn for as long as a start may take.
   void kick_watchdogs() {
     const std::uint64_t turns = turns_.load(std::memory_order_acquire);
-    if (turns == kicked_at_) return;  // the control loop hangs: let them act
+    const bool starts = turns == 0 && clock_->now() - begun_ < kLongestStart;
+    if (turns == kicked_at_ && !starts) return;  // it hangs: let them act
     kicked_at_ = turns;
     bool well = true;
     for (Watchdog* watchdog : hooks_->watchdogs)
@@ -235,6 +296,12 @@ class ThreadedRun {
   std::atomic<bool> enough_ = false;  // frames
   std::atomic<bool> warm_ = false;
   std::atomic<std::uint64_t> turns_ = 0;
+  static constexpr std::size_t kThreads = 6;
+  std::array<std::optional<Thread>, kThreads> threads_;
+  const Signals* signals_ = nullptr;
+  Nanoseconds begun_ = 0;  // the supervisor's
+  std::atomic<bool> wants_reset_ = false;
+  bool warned_ = false;
   std::exception_ptr failure_;
   std::uint64_t kicked_at_ = 0;
   std::uint64_t idle_turns_ = 0;

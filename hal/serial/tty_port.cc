@@ -116,8 +116,10 @@ Status TtyPort::write(std::span<const std::uint8_t> bytes, Nanoseconds deadline)
     }
     if (taken < 0 && errno != EINTR && errno != EAGAIN) return give_up(errno);
     const Status waited = clock_->wait_for(fd_, Ready::to_write, deadline);
-    if (waited == Status::timeout) ++counters_[1].value;
-    if (waited != Status::ok) return waited;
+    // Ready, and yet not taken: not for ever.
+    const bool late = waited == Status::timeout || clock_->now() >= deadline;
+    if (late) ++counters_[1].value;
+    if (late || waited != Status::ok) return late ? Status::timeout : waited;
   }
   return Status::ok;
 }

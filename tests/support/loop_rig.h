@@ -43,7 +43,7 @@ inline StereoCalibration rig_calibration() {
 // Twenty pairs a second of a textured floor that moves; each differs from the one before.
 class RigCamera final : public StereoCamera {
  public:
-  enum class Fault : std::uint8_t { none, silent, gone, frozen, dark, bright, skewed, torn };
+  enum class Fault : std::uint8_t { none, silent, gone, frozen, half_frozen, dark, bright, skewed, torn };
 
   explicit RigCamera(Clock& clock) : clock_(&clock) {}
 
@@ -99,7 +99,7 @@ class RigCamera final : public StereoCamera {
         if (now == Fault::dark) left = right = static_cast<std::uint8_t>(left & 3);
         if (now == Fault::bright) left = 255;
         pixels_[static_cast<std::size_t>(v * kRigWidth + u)] = left;
-        pixels_[static_cast<std::size_t>((kRigHeight + v) * kRigWidth + u)] = right;
+        if (now != Fault::half_frozen) pixels_[static_cast<std::size_t>((kRigHeight + v) * kRigWidth + u)] = right;
       }
     }
   }

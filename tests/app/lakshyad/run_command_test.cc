@@ -171,6 +171,53 @@ TEST_F(RunCommand, TheEmergencyStopHoldsUntilReset) {
   EXPECT_EQ(report["faults"].value("emergency_stop", 0), 1);
 }
 
+TEST_F(RunCommand, AFaultThatWaitsForAPersonOutlivesACrash) {
+  const Words words = run_words({"--latch", folder_.path("fault")});
+  {
+    ChildProcess firmware(words);
+    ASSERT_TRUE(drives_soon(firmware));
+    (void)folder_.write("estop", std::string("1"));
+    EXPECT_GE(milliseconds_until([&] { return std::filesystem::exists(folder_.path("fault")); }, 2000), 0);
+    firmware.signal(SIGKILL);
+    EXPECT_EQ(firmware.wait(1000), 128 + SIGKILL);
+  }
+  (void)folder_.write("estop", std::string("0"));
+  ChildProcess again(words);
+  EXPECT_GE(milliseconds_until([&] { return again.err().find("fault_before") != std::string::npos; }, 5000), 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  EXPECT_TRUE(stands()) << again.err();
+  again.signal(SIGUSR1);
+  EXPECT_GE(milliseconds_until([this] { return !stands(); }, 5000), 0) << again.err();
+  EXPECT_GE(milliseconds_until([&] { return !std::filesystem::exists(folder_.path("fault")); }, 1000), 0);
+  again.signal(SIGHUP);
+  EXPECT_EQ(again.wait(3000), 0);
+  EXPECT_TRUE(stands());
+}
+
+// A terminal that no longer takes anything holds up the log, not the stop.
+TEST_F(RunCommand, ABlockedLogDoesNotDelayTheEnd) {
+  int ends[2] = {-1, -1};
+  ASSERT_EQ(::pipe(ends), 0);
+  Words words{"/bin/sh", "-c", "exec \"$@\" 2>/proc/self/fd/" + std::to_string(ends[1]), "sh"};
+  for (const std::string& word : run_words({"--set", "drivers.compass=none"}))
+    words.push_back(word);
+  ChildProcess firmware(words);
+  const bool moves = milliseconds_until([this] { return !stands(); }, 10'000) >= 0;
+  std::string filling(65536, '.');  // nobody reads: the pipe is full
+  (void)::fcntl(ends[1], F_SETFL, O_NONBLOCK);
+  (void)!::write(ends[1], filling.data(), filling.size());
+  EXPECT_TRUE(moves);
+  firmware.signal(SIGUSR1);
+  std::this_thread::sleep_for(std::chrono::milliseconds(6000));  // a line of status is due every 5 s
+  EXPECT_FALSE(stands()) << "nothing was wrong";
+  firmware.signal(SIGTERM);
+  const double ms = milliseconds_until([this] { return stands(); }, 1000);
+  EXPECT_GE(ms, 0);
+  EXPECT_LE(ms, 200);
+  (void)::close(ends[0]);
+  (void)::close(ends[1]);
+}
+
 // The disk is full: here no file of the program may grow beyond 8 blocks of 512 bytes.
 TEST_F(RunCommand, ARecordingThatCannotBeWrittenStopsTheWheels) {
   Words words{"/bin/sh", "-c", "trap '' XFSZ; ulimit -f 8; exec \"$@\"", "sh"};

@@ -64,6 +64,7 @@ std::vector<Fault> faults() {
       {"camera gives no more pairs", Event::camera_silent, camera(silent), camera(none)},
       {"camera is unplugged", Event::camera_gone, camera(gone), camera(none)},
       {"camera gives the same pair again and again", Event::camera_frozen, camera(frozen), camera(none)},
+      {"one eye gives the same image again and again", Event::camera_frozen, camera(half_frozen), camera(none)},
       {"lens is covered", Event::camera_dark, camera(dark), camera(none)},
       {"one eye looks into the sun", Event::camera_bright, camera(bright), camera(none)},
       {"eyes are 30 ms apart", Event::camera_skewed, camera(skewed), camera(none)},
@@ -87,6 +88,8 @@ std::vector<Fault> faults() {
        [](LoopRig&) { test::rig_perception_fails = false; }},
       {"control loop is held up for 120 ms", Event::control_late, [](LoopRig& r) { r.estop->stall_ms = 120; },
        [](LoopRig&) {}},
+      {"control loop hangs for 2 s", Event::control_late, [](LoopRig& r) { r.estop->stall_ms = 2000; },
+       [](LoopRig&) { std::this_thread::sleep_for(std::chrono::milliseconds(2000)); }},
       {"emergency stop is pressed", Event::emergency_stop, [](LoopRig& r) { r.estop->pressed = true; },
        [](LoopRig& r) { r.estop->pressed = false; }},
       {"emergency stop cannot be read", Event::emergency_stop, [](LoopRig& r) { r.estop->unreadable = true; },
@@ -180,7 +183,7 @@ TEST(LoopFaults, TheDrivesAreUnplugged) {
 TEST(LoopFaults, APlanGetsTooOld) {
   LoopRig rig([](VehicleConfig& c) {
     c.safety.perception_s = 10;
-    c.safety.plan_age_s = 0.16;
+    c.safety.plan_age_s = 0.15;
   });
   inject_once(rig, "no new plan comes", Event::plan_old, kLimitMs, [] { test::rig_perception_stalls = true; });
 }

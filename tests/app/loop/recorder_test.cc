@@ -140,10 +140,15 @@ TEST(Recorder, BeginsAnew) {
 TEST(Recorder, EveryNthPlanHasAPicture) {
   const TempFolder temp;
   const auto wanted = [&](std::uint64_t every) {
-    const Recorder recorder(temp.path("run"), every);
+    Recorder recorder(temp.path("run"), every);
+    const Image<std::uint8_t> map(4, 4, std::uint8_t{kCellUnknown});
     std::set<int> numbers;
     for (int number = 1; number <= 9; ++number) {
-      if (recorder.wants_picture(static_cast<std::uint64_t>(number))) numbers.insert(number);
+      PlanNote plan;
+      plan.number = static_cast<std::uint64_t>(number);
+      if (!recorder.wants_picture(plan.number)) continue;
+      numbers.insert(number);
+      EXPECT_TRUE(recorder.write_map(map.view(), plan, {}));
     }
     return numbers;
   };

@@ -145,7 +145,8 @@ TEST(SafetyTable, TheCourseOfAnUndisturbedRun) {
 TEST(SafetyTable, EveryEventIsOfItsKind) {
   const std::set<Event> course{Event::all_well, Event::go, Event::arrived, Event::reset, Event::terminate};
   const std::set<Event> slows{Event::camera_damaged, Event::recording_lost, Event::watchdog_failed};
-  const std::set<Event> latches{Event::emergency_stop, Event::tipping, Event::recording_failed};
+  const std::set<Event> latches{Event::emergency_stop, Event::tipping, Event::recording_failed,
+                                Event::fault_before};
   for (const Event event : events()) {
     const Kind kind = course.contains(event)    ? Kind::course
                       : slows.contains(event)   ? Kind::slows

@@ -211,6 +211,7 @@ class SoakTest : public ::testing::Test {
     for (int n = 0; n < kPairs; ++n) {
       test::StereoPair pair = test::textured_pair([](int v) { return std::max(v - 59, 0); });
       pair.left.view().at(n, 0) ^= 1U;
+      pair.right.view().at(n, 0) ^= 1U;
       const std::string name = "/" + std::to_string(n) + ".png";
       write_png(folder_.path("left") + name, pair.left.view());
       write_png(folder_.path("right") + name, pair.right.view());
