@@ -2,6 +2,8 @@
 // the control loop for both (hal/servo/quicksilver.h has the figures); control does not wait for it.
 #pragma once
 
+#include <limits>
+
 #include "app/loop/messages.h"
 #include "hal/clock.h"
 #include "hal/servo.h"
@@ -14,12 +16,13 @@ class Driving {
   Driving(Servo& servo, Clock& clock, Exchange& exchange) : servo_(&servo), clock_(&clock), exchange_(&exchange) {}
 
   // One exchange with the drives: the newest command, or the last one again, which keeps drives from stopping by themselves; then
-  // their travel, unless a command has come meanwhile that must not wait. Tells control how it went.
-  void step();
+  // their travel, unless a command has come meanwhile that must not wait. Tells control how it went. None of it takes longer than
+  // until `limit`: on the virtual clock the next control turn, which in threads waits for nobody either.
+  void step(Nanoseconds limit = std::numeric_limits<Nanoseconds>::max());
 
  private:
-  void command();
-  void read_travel();
+  void command(Nanoseconds limit);
+  void read_travel(Nanoseconds limit);
 
   Servo* servo_;
   Clock* clock_;

@@ -93,7 +93,7 @@ class SteppedRun {
       }
     }
     const bool goes_on = m_->control().turn(due);
-    m_->driving().step();
+    m_->driving().step(due + kControlPeriod);
     // The turn that has taken up the last plan is the last but one.
     if (over_ && pending_.empty()) m_->exchange().terminate.store(true);
     return goes_on;
