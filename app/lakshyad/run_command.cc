@@ -73,7 +73,7 @@ struct ReplayOptions {
 void watch_at_rate(VehicleConfig& config) {
   const double period_s = 1 / config.folder.rate_hz;
   config.safety.camera_silent_s = std::max(config.safety.camera_silent_s, 1.3 * period_s);
-  config.safety.plan_age_s = std::max(config.safety.plan_age_s, 1.3 * (period_s + config.loop.virtual_latency_s));
+  config.safety.plan_age_s = std::max(config.safety.plan_age_s, 1.2 * (period_s + config.loop.virtual_latency_s));
 }
 
 // "max": as fast as it goes, on the virtual clock, where pairs come folder.rate_hz times a second. "real": at the times of the

@@ -181,8 +181,9 @@ void run_session(const VehicleConfig& config, const SessionOptions& o, const Ker
   Clock& clock = o.virtual_clock ? static_cast<Clock&>(virtual_clock) : machine_clock;
   const StereoCalibration calibration = loop_calibration(config, o.config_path);
   Machinery machinery(config, calibration, make_devices(config, clock), kernels, clock, machine_clock);
-  require_writable(o.report);
   std::error_code ignored;
+  if (!o.out.empty()) std::filesystem::create_directories(o.out, ignored);  // where the report may be, too
+  require_writable(o.report);
   machinery.exchange().fault_before.store(!o.latch.empty() && std::filesystem::exists(o.latch, ignored));
 
   RunRecord record;
