@@ -23,6 +23,12 @@ class Ring {
     return true;
   }
 
+  // The reader: the next value, which stays; null: there is none.
+  const T* front() const {
+    const std::size_t begin = begin_.load(std::memory_order_relaxed);
+    return begin == end_.load(std::memory_order_acquire) ? nullptr : &values_[begin % kLength];
+  }
+
   // The reader. False: there is none.
   bool pop(T& value) {
     const std::size_t begin = begin_.load(std::memory_order_relaxed);

@@ -50,7 +50,7 @@ class Secretary final : public FrameSink {
     Decision decision;
     while (x_->decisions.pop(decision))
       (void)recorder_->write(decision, record_->start);
-    if (x_->map.take() && recorder_->wants_picture(x_->map.reading().plan.number)) draw(x_->map.reading());
+    if (x_->map.take()) draw(x_->map.reading().type, x_->map.reading().plan);
     keep_latch();
     if (recorder_->has_failed() && !told_failure_) {
       spdlog::error("recording: {}", recorder_->problem());
@@ -71,7 +71,7 @@ class Secretary final : public FrameSink {
   // On the virtual clock every map can be drawn; on the machine's, those that are there when there is time.
   void on_frame(const FrameResult& frame, const PlanNote& plan) override {
     const MemoryWatch not_the_loops(WatchedPlace::nowhere);
-    if (recorder_->wants_picture(plan.number)) (void)recorder_->write_map(frame.grid.type, plan, m_->config());
+    draw(frame.grid.type, plan);
   }
 
  private:
@@ -93,7 +93,9 @@ class Secretary final : public FrameSink {
     }
   }
 
-  void draw(const MapNote& map) { (void)recorder_->write_map(map.type, map.plan, m_->config()); }
+  void draw(ImageView<const std::uint8_t> type, const PlanNote& plan) {
+    if (recorder_->wants_picture(plan.number)) (void)recorder_->write_map(type, plan, m_->config());
+  }
 
   Machinery* m_;
   Exchange* x_;
@@ -113,9 +115,8 @@ std::unique_ptr<Recorder> make_recorder(Machinery& m, const SessionOptions& o) {
 }
 
 void run_on_virtual_clock(Machinery& m, SteppedClock& clock, const SessionOptions& o, RunRecord& record) {
-  const std::unique_ptr<Recorder> made = make_recorder(m, o);
-  Recorder& recorder = *made;
-  Secretary secretary(m, recorder, record, o.latch);
+  const std::unique_ptr<Recorder> recorder = make_recorder(m, o);
+  Secretary secretary(m, *recorder, record, o.latch);
   m.perception().show(&secretary);
   run_stepped(m, clock, o.limits, [&] { secretary.keep_house(); });
   secretary.keep_house();

@@ -1,31 +1,13 @@
 #include "app/loop/stepped_run.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "app/loop/memory_watch.h"
+#include "app/loop/ring.h"
 
 namespace lakshya {
 namespace {
-
-// Plans that are made and not due yet, oldest first. The longest latency at the fastest camera is many; those who ask for that
-// lose the newest.
-class PendingPlans {
- public:
-  bool empty() const { return begin_ == end_; }
-  bool full() const { return end_ - begin_ == plans_.size(); }
-  void push(const PlanNote& plan) {
-    if (!full()) plans_[end_++ % plans_.size()] = plan;
-  }
-  const PlanNote& front() const { return plans_[begin_ % plans_.size()]; }
-  void pop() { ++begin_; }
-
- private:
-  std::array<PlanNote, 256> plans_;
-  std::size_t begin_ = 0;
-  std::size_t end_ = 0;
-};
 
 class SteppedRun {
  public:
@@ -79,14 +61,16 @@ class SteppedRun {
     PlanNote plan;
     if (!m_->perception().step(plan)) return;
     plan.done = plan.taken + latency_;
-    pending_.push(plan);
+    (void)pending_.push(plan);
     if (limits_.frames > 0 && m_->perception().frames() >= limits_.frames) over_ = true;
   }
 
   bool control(Nanoseconds due) {
     const MemoryWatch counted(WatchedPlace::loop);
-    for (; !pending_.empty() && pending_.front().done <= due; pending_.pop())
-      m_->perception().publish(pending_.front());
+    for (PlanNote plan; pending_.front() != nullptr && pending_.front()->done <= due;) {
+      (void)pending_.pop(plan);
+      m_->perception().publish(plan);
+    }
     if (m_->sensing() != nullptr) {
       // As many as the queue takes; a compass that always has one more is its own fault.
       for (int i = 0; i < 64 && m_->sensing()->step(due) == Status::ok; ++i) {
@@ -95,7 +79,7 @@ class SteppedRun {
     const bool goes_on = m_->control().turn(due);
     m_->driving().step(due + kControlPeriod);
     // The turn that has taken up the last plan is the last but one.
-    if (over_ && pending_.empty()) m_->exchange().terminate.store(true);
+    if (over_ && pending_.front() == nullptr) m_->exchange().terminate.store(true);
     return goes_on;
   }
 
@@ -104,7 +88,8 @@ class SteppedRun {
   const RunLimits limits_;
   const Nanoseconds latency_;
   const WatchedPlace decodes_;
-  PendingPlans pending_;
+  // Plans that are made and not due yet. The longest latency at the fastest camera is more; those who ask for that lose the newest.
+  Ring<PlanNote, 256> pending_;
   std::uint64_t damaged_ = 0;  // captures in a row
   bool over_ = false;
 };

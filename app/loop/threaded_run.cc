@@ -40,6 +40,23 @@ class Descriptor {
   int fd_;
 };
 
+// Wakes one thread that waits; how often it was rung meanwhile does not matter.
+class Bell {
+ public:
+  void ring() const {
+    const std::uint64_t one = 1;
+    (void)!::write(fd_.get(), &one, sizeof one);
+  }
+  void wait(Clock& clock, Nanoseconds deadline) const {
+    if (clock.wait_for(fd_.get(), Ready::to_read, deadline) != Status::ok) return;
+    std::uint64_t rings = 0;
+    (void)!::read(fd_.get(), &rings, sizeof rings);
+  }
+
+ private:
+  Descriptor fd_{eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC), "eventfd"};
+};
+
 // The signals come to one descriptor, and to no thread.
 class Signals {
  public:
@@ -176,10 +193,7 @@ class ThreadedRun {
     std::uint64_t damaged = 0;
     while (!x_->ended.load(std::memory_order_acquire)) {
       const Status status = capture_one(place);
-      if (status == Status::ok) {
-        const std::uint64_t one = 1;
-        (void)!::write(new_pair_.get(), &one, sizeof one);
-      }
+      if (status == Status::ok) new_pair_.ring();
       damaged = status == Status::bad_data ? damaged + 1 : 0;
       if (status == Status::end_of_data || (limits_.damaged > 0 && damaged >= limits_.damaged)) {
         over_.store(true, std::memory_order_release);
@@ -202,10 +216,7 @@ class ThreadedRun {
     m_->perception().warm_up();
     warm_.store(true, std::memory_order_release);
     while (!x_->ended.load(std::memory_order_acquire)) {
-      if (clock_->wait_for(new_pair_.get(), Ready::to_read, clock_->now() + kWait) == Status::ok) {
-        std::uint64_t pairs = 0;
-        (void)!::read(new_pair_.get(), &pairs, sizeof pairs);
-      }
+      new_pair_.wait(*clock_, clock_->now() + kWait);
       while (!enough_.load(std::memory_order_relaxed) && perceive_one()) {
         if (limits_.frames > 0 && m_->perception().frames() >= limits_.frames)
           enough_.store(true, std::memory_order_release);
@@ -235,18 +246,14 @@ class ThreadedRun {
   // As often as control commands, or as the drives' line can.
   void drive_all() {
     do {
-      if (clock_->wait_for(new_command_.get(), Ready::to_read, clock_->now() + kWait) == Status::ok) {
-        std::uint64_t commands = 0;
-        (void)!::read(new_command_.get(), &commands, sizeof commands);
-      }
+      new_command_.wait(*clock_, clock_->now() + kWait);
     } while (drive_one());
   }
 
   bool turn(Nanoseconds due) {
     const MemoryWatch watch(WatchedPlace::loop);
     const bool goes_on = m_->control().turn(due);
-    const std::uint64_t one = 1;
-    (void)!::write(new_command_.get(), &one, sizeof one);
+    new_command_.ring();
     return goes_on;
   }
 
@@ -290,8 +297,8 @@ class ThreadedRun {
   Clock* clock_;
   const RunLimits limits_;
   const ThreadedHooks* hooks_;
-  Descriptor new_pair_{eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC), "eventfd"};
-  Descriptor new_command_{eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC), "eventfd"};
+  const Bell new_pair_;
+  const Bell new_command_;
   std::atomic<bool> over_ = false;    // the recording
   std::atomic<bool> enough_ = false;  // frames
   std::atomic<bool> warm_ = false;
