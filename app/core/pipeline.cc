@@ -241,6 +241,7 @@ Status Pipeline::process(ImageView<const std::uint8_t> left, ImageView<const std
   Status status = timed(*clock_, Stage::rectify, result, [&] { return rectify(left, right, result); });
   if (status != Status::ok) return status;
   status = timed(*clock_, Stage::match, result, [&] {
+    if (stand_in_ != nullptr) return stand_in_->match(result.left, result.right, result.disparity);
     return buffers_->matcher.match(result.left, result.right, result.disparity, clock_, &result.times.match);
   });
   if (status != Status::ok) return status;
@@ -248,8 +249,10 @@ Status Pipeline::process(ImageView<const std::uint8_t> left, ImageView<const std
   if (status != Status::ok) return status;
   status = timed(*clock_, Stage::project_and_bin, result, [&] { return project_and_bin(result); });
   if (status != Status::ok) return status;
-  status = timed(*clock_, Stage::score, result,
-                 [&] { return kernels_->score(buffers_->thresholds, min_height_mm_, result.grid); });
+  status = timed(*clock_, Stage::score, result, [&] {
+    const Status scored = kernels_->score(buffers_->thresholds, min_height_mm_, result.grid);
+    return scored == Status::ok && stand_in_ != nullptr ? stand_in_->see(result.grid) : scored;
+  });
   if (status != Status::ok) return status;
   status = timed(*clock_, Stage::plan, result,
                  [&] { return planner_.plan(result.grid.type, input, plan_state_, result.plan); });

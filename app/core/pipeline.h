@@ -34,6 +34,17 @@ struct FrameResult {
   FrameTimes times;
 };
 
+// Does a stage's work in its place, so that another sensor can be compared under the same map and planner (lakshya sim --sensor).
+class StandIn {
+ public:
+  virtual ~StandIn() = default;
+  // In place of the matcher: the stored disparity of a rectified pair, valid until the next call.
+  virtual Status match(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
+                       ImageView<const std::int16_t>& disparity) = 0;
+  // After the scoring: may write another type into the map's cells.
+  virtual Status see(const NavGrid& /*grid*/) { return Status::ok; }
+};
+
 class Pipeline {
  public:
   // width, height: of the raw images, already compared with the calibration's (require_image_size).
@@ -60,6 +71,8 @@ class Pipeline {
   void clear_times() { times_ = {}; }
   // As if no frame had been processed yet.
   void begin_anew();
+  // Outlives the pipeline; null: the pipeline's own stages.
+  void stand_in(StandIn* stand_in) { stand_in_ = stand_in; }
 
  private:
   struct RectifyImages {
@@ -93,6 +106,7 @@ class Pipeline {
 
   const KernelTable* kernels_;
   const Clock* clock_;
+  StandIn* stand_in_ = nullptr;
   RectifiedGeometry camera_;
   int bands_;
   std::int32_t min_height_mm_;

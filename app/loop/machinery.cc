@@ -97,7 +97,7 @@ StereoCalibration loop_calibration(const VehicleConfig& config, const std::strin
 Machinery::Machinery(const VehicleConfig& config, const StereoCalibration& calibration, VehicleDevices devices,
                      const KernelTable& kernels, Clock& clock, const Clock& stage_clock)
     : config_(config), clock_(&clock), devices_(std::move(devices)) {
-  std::vector<WayPoint> way_points = way_points_of(config_);
+  std::vector<WayPoint> way_points = devices_.way_points ? *devices_.way_points : way_points_of(config_);
   open_devices();
   const int width = devices_.camera.device->width();
   const int height = devices_.camera.device->height();

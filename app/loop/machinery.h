@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct VehicleDevices {
   Made<Servo> servo;
   Made<Compass> compass;
   Made<EmergencyStop> estop;
+  std::optional<std::vector<WayPoint>> way_points;  // a simulator's own; else those of mission.way_points
 };
 
 // Those that the configuration names, not open yet. `clock` outlives them.
@@ -54,6 +56,7 @@ class Machinery {
   Control& control() { return *control_; }
   const Control& control() const { return *control_; }
   const Pipeline& pipeline() const { return *pipeline_; }
+  Pipeline& pipeline() { return *pipeline_; }
   const VehicleDevices& devices() const { return devices_; }
   // Whether a captured pair has to be decoded, which allocates.
   bool capture_decodes() const;

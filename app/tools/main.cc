@@ -10,6 +10,7 @@
 #include "app/tools/plan_command.h"
 #include "app/tools/process_command.h"
 #include "app/tools/profile_command.h"
+#include "app/tools/sim_command.h"
 #include "app/tools/soak_command.h"
 
 int main(int argc, char** argv) {
@@ -23,6 +24,7 @@ int main(int argc, char** argv) {
     lakshya::add_plan_command(app);
     lakshya::add_run_command(app, argv);
     lakshya::add_replay_command(app, argv);
+    lakshya::add_sim_command(app, argv);
     lakshya::add_eval_command(app);
     lakshya::add_accuracy_command(app);
     lakshya::add_compare_command(app);

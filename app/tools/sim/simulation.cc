@@ -1,0 +1,110 @@
+#include "app/tools/sim/simulation.h"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "app/core/rectification.h"
+#include "app/tools/sim/random.h"
+
+namespace lakshya::sim {
+namespace {
+
+CameraConfig with_error(CameraConfig mount, double deviation_deg, std::uint64_t seed) {
+  Random random(mixed(seed) ^ 0xCA);
+  mount.pitch_deg += deviation_deg * random.normal();
+  mount.roll_deg += deviation_deg * random.normal();
+  return mount;
+}
+
+VehicleSettings vehicle_settings(VehicleSettings settings, const VehicleConfig& config) {
+  settings.track_m = config.vehicle.track_m;
+  return settings;
+}
+
+// Never the same twice, or the loop would take the camera for frozen.
+void fill_with_noise(ImageView<std::uint8_t> image, std::uint64_t seed) {
+  for (int v = 0; v < image.height; ++v) {
+    for (int u = 0; u < image.width; ++u)
+      image.at(u, v) = static_cast<std::uint8_t>(64 + ((static_cast<std::uint64_t>(u) * 31 + seed) & 63));
+  }
+}
+
+}  // namespace
+
+Simulation::Simulation(const SimulationSettings& settings, const World& world, const VehicleConfig& config,
+                       Clock& clock)
+    : settings_(settings),
+      world_(&world),
+      config_(config),
+      clock_(&clock),
+      start_(clock.now()),
+      calibration_(rig_calibration(settings.rig)),
+      rectification_(needs_remap(calibration_)
+                         ? rectify_stereo(calibration_, settings.rig.width, settings.rig.height)
+                         : Rectification{}),
+      camera_(rectified_geometry(calibration_, settings.rig.width, settings.rig.height)),
+      true_mount_(with_error(config.camera, settings.mount_error_deg, settings.seed)),
+      vehicle_(vehicle_settings(settings.vehicle, config), world, settings.seed, clock.now()),
+      renderer_(world),
+      sensor_(settings.sensor),
+      left_(settings.rig.width, settings.rig.height),
+      right_(settings.rig.width, settings.rig.height) {}
+
+VehicleDevices Simulation::devices() {
+  VehicleDevices devices;
+  const SimCameraSettings camera{
+      .width = settings_.rig.width, .height = settings_.rig.height, .fps = settings_.fps};
+  devices.camera.device = std::make_unique<SimCamera>(camera, *this, *clock_);
+  devices.servo.device = std::make_unique<SimServo>(config_.vehicle.max_speed_mps * 1.5, vehicle_, *clock_);
+  devices.compass.device = std::make_unique<SimCompass>(config_.compass.rate_hz, vehicle_, *clock_);
+  devices.way_points.emplace();
+  for (const Eigen::Vector2d& goal : world_->goals)
+    devices.way_points->push_back({goal.x() - world_->start.x, goal.y() - world_->start.y});
+  return devices;
+}
+
+Status Simulation::produce(Nanoseconds time, std::uint64_t number, ImageView<std::uint8_t> left,
+                           ImageView<std::uint8_t> right) {
+  shot_.vehicle = vehicle_.at(time);
+  shot_.time_s = seconds(time);
+  shot_.rectified = rectified_camera(shot_.vehicle, true_mount_);
+  if (!settings_.draws) {
+    fill_with_noise(left, 2 * number);
+    fill_with_noise(right, 2 * number + 1);
+    return Status::ok;
+  }
+  const EyePoses poses = eyes(shot_.rectified, calibration_, rectification_.R1);
+  renderer_.set_time(shot_.time_s);
+  const auto draw = [&](const CameraModel& model, const CameraPose& pose, Image<float>& image) {
+    renderer_.radiance({.model = model,
+                        .width = image.width(),
+                        .height = image.height(),
+                        .world_from_camera = pose.world_from_camera,
+                        .position = pose.position},
+                       image.view());
+  };
+  draw(calibration_.left, poses.left, left_);
+  draw(calibration_.right, poses.right, right_);
+  sensor_.expose(number, shot_.vehicle.turn_rate_rps, left_.view(), right_.view(), left, right);
+  return Status::ok;
+}
+
+std::vector<std::string> simulated_vehicle_settings(bool indoor) {
+  std::vector<std::string> sets{"camera.height_m=0.6", "camera.pitch_deg=10", "camera.forward_m=0.2",
+                                "camera.left_m=0.06"};
+  if (!indoor) sets.insert(sets.end(), {"vehicle.max_speed_mps=1.5", "planner.active_radius_m=4"});
+  return sets;
+}
+
+VehicleConfig with_simulated_devices(VehicleConfig config) {
+  config.drivers = {.camera = "sim",
+                    .servo = "sim",
+                    .compass = "sim",
+                    .unsupervised_speed_mps = config.drivers.unsupervised_speed_mps};
+  config.mission.way_points.clear();
+  config.record.path.clear();
+  return config;
+}
+
+}  // namespace lakshya::sim
