@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -9,6 +10,8 @@
 #include "app/core/vehicle_config_keys.h"
 #include "app/lakshyad/options.h"
 #include "app/tools/evaluation.h"
+#include "app/tools/sim/map_judge.h"
+#include "app/tools/sim_setup.h"
 
 namespace lakshya {
 namespace {
@@ -20,16 +23,36 @@ struct EvalOptions {
   int min_disparity = 0;
   std::vector<std::string> matchers{kMatcherNames.begin(), kMatcherNames.end()};
   std::vector<std::string> against;
-  ConfigOptions config;
-  KernelOptions kernels;
+  SimOptions sim;  // with configuration and kernels
   bool json = false;
 };
 
+// The map of a drive through a simulated world, instead of a pair with ground truth.
+void run_world_eval(const EvalOptions& o) {
+  const KernelTable kernels = choose_kernels(o.sim.kernels);
+  const sim::World world = choose_world(o.sim.world, o.sim.seed);
+  std::vector<std::string> names = o.matchers;
+  names.insert(names.end(), o.against.begin(), o.against.end());
+  for (const std::string& name : names) {
+    spdlog::info("{} drives through {}", name, o.sim.world);
+    SimOptions options = o.sim;
+    const bool is_ours = std::ranges::find(kMatcherNames, name) != kMatcherNames.end();
+    (is_ours ? options.matcher : options.sensor) = name;
+    const VehicleConfig config = choose_vehicle(options, world.indoor);
+    sim::MapJudge judge(world, config, {});
+    const sim::RunResult result = run_world(world, config, run_settings(options, o.sim.seed), kernels, &judge);
+    nlohmann::ordered_json line{{"world", o.sim.world}, {"seed", o.sim.seed}, {"matcher", name}};
+    line.update(judge.json());
+    line["drive"] = run_json(result);
+    std::cout << line.dump(o.json ? -1 : 2) << '\n';
+  }
+}
+
 void run_eval(EvalOptions& o) {
-  VehicleConfig config = load_vehicle_config(o.config.config, o.config.profile, o.config.sets);
+  VehicleConfig config = load_vehicle_config(o.sim.config.config, o.sim.config.profile, o.sim.config.sets);
   config.matcher.disparities = round_up_to_16(o.disparities);
   config.matcher.min_disparity = o.min_disparity;
-  const KernelTable kernels = choose_kernels(o.kernels);
+  const KernelTable kernels = choose_kernels(o.sim.kernels);
   o.files.format = parse_ground_truth_format(o.format);
   const GroundTruthPair pair = read_ground_truth_pair(o.files);
 
@@ -70,26 +93,23 @@ CLI::Validator ground_truth_format() {
 }
 
 void add_options(CLI::App& command, EvalOptions& o) {
-  command.add_option("--left", o.files.left, "Left image of a rectified pair: PNG, PGM, PPM or JPEG, 8 bits")
-      ->required()
-      ->type_name("FILE");
-  command.add_option("--right", o.files.right, "Right image of the same size")->required()->type_name("FILE");
-  command.add_option("--gt", o.files.truth, "Ground truth: disparity of the left image")
-      ->required()
-      ->type_name("FILE");
+  CLI::Option* left =
+      command.add_option("--left", o.files.left, "Left image of a rectified pair: PNG, PGM, PPM or JPEG, 8 bits")
+          ->type_name("FILE");
+  add_world_options(command, o.sim)->excludes(left);
+  command.add_option("--right", o.files.right, "Right image of the same size")->type_name("FILE");
+  command.add_option("--gt", o.files.truth, "Ground truth: disparity of the left image")->type_name("FILE");
   command
       .add_option(
           "--gt-format", o.format,
           "pfm: px, infinite = unknown; kitti: 16-bit PNG of 1/256 px, 0 = unknown; scaled:S: grey PNG of S "
           "levels per px, 0 = unknown")
-      ->required()
       ->check(ground_truth_format())
       ->type_name("");
   command.add_option("--mask", o.files.mask, "Image of the same size: only pixels of value 255 count")
       ->type_name("FILE");
   command
       .add_option("--disparities", o.disparities, "Number of disparities searched, rounded up to a multiple of 16")
-      ->required()
       ->check(CLI::Range(1, 512));
   command.add_option("--min-disparity", o.min_disparity, "Smallest disparity searched")->check(CLI::Range(0, 1024));
   command.add_option("--matcher", o.matchers, "Our matchers (without: all)")
@@ -99,8 +119,8 @@ void add_options(CLI::App& command, EvalOptions& o) {
   command.add_option("--against", o.against, "OpenCV's matchers, for comparison")
       ->delimiter(',')
       ->check(CLI::IsMember(std::vector<std::string>{peers.begin(), peers.end()}));
-  add_config_options(command, o.config);
-  add_kernel_options(command, o.kernels);
+  add_config_options(command, o.sim.config);
+  add_kernel_options(command, o.sim.kernels);
   command.add_flag("--json", o.json, "Print JSON instead of a table");
   command.footer(
       "Rates are over the ground-truth pixels that have an estimate; density is the share that has one; d1 is an "
@@ -120,7 +140,13 @@ void add_eval_command(CLI::App& app) {
   auto options = std::make_shared<EvalOptions>();
   CLI::App* command = app.add_subcommand("eval", "Accuracy of the matchers on a pair with ground truth");
   add_options(*command, *options);
-  command->callback([options] { run_eval(*options); });
+  command->callback([options, command] {
+    if (!options->sim.world.empty()) return run_world_eval(*options);
+    for (const char* name : {"--left", "--right", "--gt", "--gt-format", "--disparities"}) {
+      if (command->count(name) == 0) throw CLI::RequiredError(std::string(name) + " (or --world)");
+    }
+    run_eval(*options);
+  });
 }
 
 }  // namespace lakshya

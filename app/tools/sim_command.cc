@@ -87,7 +87,9 @@ void add_sim_command(CLI::App& app, char** argv) {
   auto o = std::make_shared<CommandOptions>();
   CLI::App* command =
       app.add_subcommand("sim", "The main loop drives a simulated vehicle with rendered stereo cameras");
-  add_sim_options(*command, o->sim);
+  add_world_options(*command, o->sim)->required();
+  command->add_option("--matcher", o->sim.matcher, "Matching method (matcher.name)")
+      ->check(CLI::IsMember(std::vector<std::string>(kMatcherNames.begin(), kMatcherNames.end())));
   command
       ->add_option("--sensor", o->sim.sensor,
                    "What sees: our matcher, OpenCV's, a perfect laser scanner at 0.3 m, or the true depth")
@@ -111,6 +113,8 @@ void add_sim_command(CLI::App& app, char** argv) {
   command->footer(
       "Exit code 1: one drive (--count 1) that did not reach its goal, or refused input.\n"
       "Example: lakshya sim --world random-indoor --seed 1 --count 20 --jobs 2");
+  add_config_options(*command, o->sim.config);
+  add_kernel_options(*command, o->sim.kernels);
   command->callback([o, argv] {
     require_openmp_settings(argv);
     simulate(*o);

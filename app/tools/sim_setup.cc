@@ -49,24 +49,17 @@ std::string known_worlds() {
   return names;
 }
 
-std::vector<std::string> names(std::span<const std::string_view> list) {
-  return {list.begin(), list.end()};
-}
-
 }  // namespace
 
-void add_sim_options(CLI::App& command, SimOptions& o) {
-  command.add_option("--world", o.world, "World: " + known_worlds() + ", or a YAML file (docs/worlds.md)")
-      ->required()
-      ->type_name("NAME|FILE");
+CLI::Option* add_world_options(CLI::App& command, SimOptions& o) {
+  CLI::Option* world =
+      command.add_option("--world", o.world, "World: " + known_worlds() + ", or a YAML file (docs/worlds.md)")
+          ->type_name("NAME|FILE");
   command.add_option("--seed", o.seed, "Seed of a random world, and of all noise")->capture_default_str();
   command.add_option("--size", o.size, "Pictures of the simulated cameras")
       ->check(image_size())
       ->capture_default_str();
-  command.add_option("--matcher", o.matcher, "Matching method (matcher.name)")
-      ->check(CLI::IsMember(names(kMatcherNames)));
-  add_config_options(command, o.config);
-  add_kernel_options(command, o.kernels);
+  return world;
 }
 
 sim::World choose_world(const std::string& world, std::uint64_t seed) {

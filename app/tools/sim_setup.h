@@ -22,8 +22,8 @@ struct SimOptions {
   KernelOptions kernels;
 };
 
-// --world, --seed, --size, --matcher, and those of configuration and kernels
-void add_sim_options(CLI::App& command, SimOptions& options);
+// --world, --seed, --size
+CLI::Option* add_world_options(CLI::App& command, SimOptions& options);
 
 // A name of ours, a YAML file, or random-indoor or random-outdoor made of the seed. Throws InputError.
 sim::World choose_world(const std::string& world, std::uint64_t seed);

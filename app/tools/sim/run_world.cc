@@ -277,6 +277,7 @@ RunResult run_world(const World& world, const VehicleConfig& config, const RunSe
   const std::unique_ptr<StandIn> stand_in = make_stand_in(settings, config, simulation);
   machinery.pipeline().stand_in(stand_in.get());
   Drive drive(world, config, settings.rules, simulation, machinery, clock, onlooker);
+  if (onlooker != nullptr) onlooker->on_start(simulation, machinery);
   run_stepped(machinery, clock, {}, [&] { drive.after_turn(); });
   RunResult result = std::move(drive).result();
   result.world = world.name;

@@ -48,6 +48,8 @@ struct RunSettings {
 class Onlooker {
  public:
   virtual ~Onlooker() = default;
+  // Before the first turn; both outlive the run.
+  virtual void on_start(Simulation& /*simulation*/, const Machinery& /*machinery*/) {}
   virtual void on_frame(const FrameResult& /*frame*/, const PlanNote& /*plan*/, const Shot& /*shot*/) {}
   virtual void on_turn(const StatusNote& /*status*/, const VehicleState& /*vehicle*/) {}
   virtual void on_state(const StateNote& /*note*/) {}
