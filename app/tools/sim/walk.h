@@ -1,12 +1,12 @@
-// Where somebody who walks to and fro is at a time.
+// Where somebody is who walks to and fro.
 #pragma once
 
 #include "app/tools/sim/world.h"
 
 namespace lakshya::sim {
 
-// Along the points and back the same way, for ever, at an even speed, facing where he goes. A way without length: he stands on
-// its first point, yaw 0. Before time 0 he walked too.
+// On the way there and back, `start_m` + speed x time along it, facing the direction of motion. A walk of length 0 stays at its
+// first point and faces east.
 Place place_on_walk(const Walk& walk, double time_s);
 
 }  // namespace lakshya::sim
