@@ -62,7 +62,9 @@ void simulate(const CommandOptions& o) {
   // Refuses before the long work, not within it.
   (void)choose_vehicle(o.sim, choose_world(o.sim.world, o.sim.seed).indoor);
   if (!o.record.empty()) std::filesystem::create_directories(o.record);
-  CampaignSettings settings{.jobs = o.jobs, .results = o.results};
+  CampaignSettings settings;
+  settings.jobs = o.jobs;
+  settings.results = o.results;
   settings.seeds.resize(static_cast<std::size_t>(o.count));
   std::iota(settings.seeds.begin(), settings.seeds.end(), o.sim.seed);
   std::vector<RunResult> results;

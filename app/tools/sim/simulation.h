@@ -17,6 +17,7 @@
 #include "app/tools/sim/stand_ins.h"
 #include "app/tools/sim/vehicle.h"
 #include "app/tools/sim/world.h"
+#include "hal/camera/sim_camera.h"
 
 namespace lakshya::sim {
 
