@@ -47,36 +47,55 @@ inline float reflectance(const Facet& facet, const Material& m, const Eigen::Vec
   constexpr float kFaded = 7;      // from this level on a picture is its mean
   constexpr float kFiner = 2.7F;
   constexpr float kCoarser = 1 / 5.3F;
+  constexpr std::array<float, kMostSamples + 1> kShare{0, 1, 1 / 2.0F, 1 / 3.0F, 1 / 4.0F};
   const float minor = pixel.depth_pixel * m.texels_per_m;
   const float ratio = 1 / pixel.cosine;
   const int samples = ratio < 1.4F ? 1 : std::min(kMostSamples, static_cast<int>(ratio + 0.6F));
-  const float level = rough_log2(minor * std::max(1.0F, ratio / static_cast<float>(samples)));
+  const float level = rough_log2(minor * std::max(1.0F, ratio * kShare[static_cast<std::size_t>(samples)]));
   const float u0 = facet.u_axis.dot(p) + facet.u_offset;
   const float v0 = facet.v_axis.dot(p) + facet.v_offset;
-  const float length = pixel.depth_pixel * ratio / static_cast<float>(samples);
+  const float length = pixel.depth_pixel * ratio * kShare[static_cast<std::size_t>(samples)];
   const float du = facet.u_axis.dot(pixel.along) * length;
   const float dv = facet.v_axis.dot(pixel.along) * length;
   const TextureLayout& layout = m.layout;
-  const float finer_level = level + 1.43F;
-  const float coarser_level = level - 2.41F;
+  const TexturePicture& picture = *m.picture;
+  // Blending two levels hides where one ends; several samples, or a picture laid over another, hide it as well.
+  const auto nearest_level = [](float at) {
+    return std::clamp(static_cast<int>(at + 0.5F), 0, TexturePicture::kLevels - 1);
+  };
+  // Mean of the samples at (u, v) + k (du, dv), less the picture's mean.
+  const auto along_footprint = [&](float u, float v, float step_u, float step_v, int at) {
+    const float back = 0.5F * static_cast<float>(samples - 1);
+    std::uint32_t x = TexturePicture::fixed(u - back * step_u);
+    std::uint32_t y = TexturePicture::fixed(v - back * step_v);
+    const std::uint32_t dx = TexturePicture::fixed(step_u);
+    const std::uint32_t dy = TexturePicture::fixed(step_v);
+    float total = 0;
+    for (int i = 0; i < samples; ++i, x += dx, y += dy)
+      total += picture.sample(x, y, at);
+    return total * kShare[static_cast<std::size_t>(samples)] - 0.5F;
+  };
   float sum = 0;
-  for (int i = 0; i < samples; ++i) {
-    const float k = static_cast<float>(i) - 0.5F * static_cast<float>(samples - 1);
-    const float u = u0 + k * du;
-    const float v = v0 + k * dv;
-    if (level < kFaded) sum += layout.own * (m.picture->sample_between(u, v, level) - 0.5F);
-    if (layout.finer > 0 && finer_level < kFaded) {
-      const float a = kFiner * (0.8F * u - 0.6F * v);
-      const float b = kFiner * (0.6F * u + 0.8F * v);
-      sum += layout.finer * (m.picture->sample_between(a, b, finer_level) - 0.5F);
-    }
-    if (layout.coarser > 0 && i == 0) {  // wide enough to be the same for all
-      const float a = kCoarser * (0.96F * u0 + 0.28F * v0);
-      const float b = kCoarser * (-0.28F * u0 + 0.96F * v0);
-      sum += static_cast<float>(samples) * layout.coarser * (m.picture->sample_between(a, b, coarser_level) - 0.5F);
-    }
+  if (level < kFaded) {
+    sum = layout.own *
+          (samples == 1 ? picture.sample_between(TexturePicture::fixed(u0), TexturePicture::fixed(v0), level) - 0.5F
+                        : along_footprint(u0, v0, du, dv, nearest_level(level)));
   }
-  const float figure = 1 + 2 * m.contrast * sum / static_cast<float>(samples);
+  const float finer_level = level + 1.43F;
+  if (layout.finer > 0 && finer_level < kFaded) {
+    const auto turned_u = [](float u, float v) { return kFiner * (0.8F * u - 0.6F * v); };
+    const auto turned_v = [](float u, float v) { return kFiner * (0.6F * u + 0.8F * v); };
+    sum += layout.finer * along_footprint(turned_u(u0, v0), turned_v(u0, v0), turned_u(du, dv), turned_v(du, dv),
+                                          nearest_level(finer_level));
+  }
+  if (layout.coarser > 0) {  // wide enough to be the same for all samples
+    const float u = kCoarser * (0.96F * u0 + 0.28F * v0);
+    const float v = kCoarser * (-0.28F * u0 + 0.96F * v0);
+    sum +=
+        layout.coarser *
+        (picture.sample(TexturePicture::fixed(u), TexturePicture::fixed(v), nearest_level(level - 2.41F)) - 0.5F);
+  }
+  const float figure = 1 + 2 * m.contrast * sum;
   return std::clamp(m.albedo * std::max(figure, 0.03F), 0.0F, 0.98F);
 }
 

@@ -1,6 +1,5 @@
 #include "app/tools/sim/textures.h"
 
-#include <cmath>
 #include <mutex>
 
 #include "app/tools/sim/texture_painters.h"
@@ -40,7 +39,7 @@ TexturePicture::TexturePicture(const std::vector<float>& level0) : texels_(kStar
   for (std::size_t k = 0; k < kLevels; ++k) {
     std::uint16_t* const to = texels_.data() + kStart[k];
     for (std::size_t i = 0; i < level.size(); ++i)
-      to[i] = static_cast<std::uint16_t>(std::lround(level[i] * 65535));
+      to[i] = static_cast<std::uint16_t>(level[i] * 65535 + 0.5F);
     const std::size_t side = static_cast<std::size_t>(kSide >> k);
     std::vector<float> half(side / 2 * (side / 2));
     for (std::size_t y = 0; y < side / 2; ++y) {
@@ -71,7 +70,7 @@ TextureLayout texture_layout(Texture texture) {
     case Texture::asphalt:
     case Texture::concrete:
     case Texture::carpet:
-      return {2, 0.8F, 0.5F, 0.45F};
+      return {2, 0.8F, 0.6F, 0.45F};
     default:
       return {2, 0.85F, 0.55F, 0};
   }

@@ -16,32 +16,42 @@ namespace lakshya::sim {
 
 class TexturePicture {
  public:
-  static constexpr int kSide = 512;   // px of level 0
-  static constexpr int kLevels = 10;  // 512 .. 1
+  static constexpr int kSideBits = 9;
+  static constexpr int kSide = 1 << kSideBits;  // px of level 0
+  static constexpr int kLevels = 9;             // 512 .. 2
 
   explicit TexturePicture(const std::vector<float>& level0);
 
-  // Bilinear, of one level, at (u, v) in pictures: the picture lies in [0, 1) x [0, 1) and repeats. |u|, |v| < 2^20.
-  float sample(float u, float v, int level) const {
-    const int side = kSide >> level;
-    const float x = u * static_cast<float>(side) - 0.5F;
-    const float y = v * static_cast<float>(side) - 0.5F;
-    const int ix = floor_of(x);
-    const int iy = floor_of(y);
-    const float fx = x - static_cast<float>(ix);
-    const float fy = y - static_cast<float>(iy);
-    const int mask = side - 1;
+  // A place along one side in 2^-32 of a picture: whole pictures overflow and are gone. |u| < 2^38 pictures.
+  static std::uint32_t fixed(float u) {
+    return static_cast<std::uint32_t>(static_cast<std::uint64_t>(static_cast<std::int64_t>(u * 0x1p24F)) << 8);
+  }
+
+  // Bilinear, of one level below kLevels, weights in 1/256. Half of a shader's time passes here: integers only.
+  float sample(std::uint32_t u, std::uint32_t v, int level) const {
+    const int bits = kSideBits - level;
+    const std::uint32_t mask = (1U << bits) - 1;
+    const int shift = 32 - bits;
+    const std::uint32_t half = 1U << (shift - 1);
+    const std::uint32_t x = u - half;
+    const std::uint32_t y = v - half;
+    const std::uint32_t left = x >> shift;
+    const std::uint32_t right = (left + 1) & mask;
+    const std::uint32_t upper = y >> shift;
+    const std::uint32_t lower = (upper + 1) & mask;
+    const std::uint32_t fx = (x >> (shift - 8)) & 255;
+    const std::uint32_t fy = (y >> (shift - 8)) & 255;
     const std::uint16_t* const picture = texels_.data() + kStart[static_cast<std::size_t>(level)];
-    const std::uint16_t* const upper = picture + (iy & mask) * side;
-    const std::uint16_t* const lower = picture + ((iy + 1) & mask) * side;
-    const int left = ix & mask;
-    const int right = (ix + 1) & mask;
-    const auto mix = [](float a, float b, float t) { return a + t * (b - a); };
-    return mix(mix(upper[left], upper[right], fx), mix(lower[left], lower[right], fx), fy) * (1.0F / 65535);
+    const std::uint16_t* const up = picture + (upper << bits);
+    const std::uint16_t* const low = picture + (lower << bits);
+    const std::uint32_t a = up[left] * (256 - fx) + up[right] * fx;
+    const std::uint32_t b = low[left] * (256 - fx) + low[right] * fx;
+    return static_cast<float>(static_cast<std::int32_t>((a * (256 - fy) + b * fy) >> 8)) *
+           (1.0F / (65535 * 256.0F));
   }
 
   // The same between the two levels next to `level` (any number; clamped).
-  float sample_between(float u, float v, float level) const {
+  float sample_between(std::uint32_t u, std::uint32_t v, float level) const {
     if (level <= 0) return sample(u, v, 0);
     if (level >= kLevels - 1) return sample(u, v, kLevels - 1);
     const int low = static_cast<int>(level);
@@ -53,10 +63,6 @@ class TexturePicture {
   float texel(int x, int y) const { return texels_[static_cast<std::size_t>(y * kSide + x)] * (1.0F / 65535); }
 
  private:
-  static int floor_of(float x) {
-    const int i = static_cast<int>(x);
-    return i - (x < static_cast<float>(i) ? 1 : 0);
-  }
   static constexpr std::array<int, kLevels + 1> kStart = [] {
     std::array<int, kLevels + 1> start{};
     for (std::size_t i = 0; i < kLevels; ++i)
