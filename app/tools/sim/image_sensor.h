@@ -19,8 +19,8 @@ namespace lakshya::sim {
 struct ImageSensorSettings {
   double lens_sigma_px = 0.6;  // of the lens's blur, 0..1.5
   double vignetting = 0.25;    // share of light lost in the corners, 0..0.9
-  double gamma = 2.2;          // grey = signal^(1/gamma); 1: linear
-  double target_grey = 105;    // mean that the automatic exposure wants, 1..254
+  double gamma = 1.8;          // grey = signal^(1/gamma); 1: linear
+  double target_grey = 115;    // mean that the automatic exposure wants, 1..254
   double exposure_step =
       0.15;              // the exposure changes by no more than this share in a frame; 0: it stays as it starts
   double ms_at_one = 3;  // exposure time where an irradiance of 1 on albedo 0.5 becomes middle grey (daylight)

@@ -25,7 +25,9 @@ Place place_on_walk(const Walk& walk, double time_s) {
       const Eigen::Vector2d facing = back ? Eigen::Vector2d(-step) : step;
       return {at.x(), at.y(), std::atan2(facing.y(), facing.x())};
     }
-    rest -= step_length;
+    const Eigen::Vector2d at = points[i - 1] + leg * std::min(left / size, 1.0);
+    const double sign = back ? -1 : 1;
+    return {at.x(), at.y(), std::atan2(sign * leg.y() + 0.0, sign * leg.x())};  // + 0: due west is pi, never -pi
   }
   return {walk.points.back().x(), walk.points.back().y(), 0};
 }
