@@ -14,6 +14,8 @@
 
 namespace lakshya::sim {
 
+class Tracer;
+
 class Renderer {
  public:
   // Start-up: throws std::runtime_error where Embree cannot start. `world` outlives the renderer and stays as it is.
@@ -41,7 +43,6 @@ class Renderer {
   double sun_at(const Eigen::Vector3d& position) const;
 
  private:
-  class Tracer;
   std::unique_ptr<Tracer> tracer_;
 };
 
