@@ -136,6 +136,13 @@ Thing doorway(const Spot& spot, double length, double opening, double height) {
   return made("doorway", m, spot, Expect::obstacle);
 }
 
+Thing ceiling(const Spot& spot, double length, double width) {
+  MeshBuilder m;
+  m.surface({Texture::plaster, 0.8F, 0.3F, 0.6F, spot.seed});
+  centred_box(m, length, width, 0, 0.1);
+  return made("ceiling", m, spot, Expect::free);
+}
+
 Thing glass_pane(const Spot& spot, double length, double height) {
   MeshBuilder m;
   m.surface({Texture::plain, 0.9F, 0, 1, spot.seed});

@@ -43,11 +43,14 @@ Thing walking_person(const Walk& walk, double height, std::uint32_t seed);
 
 Thing bush(const Spot& spot, double diameter, double height);
 Thing rock(const Spot& spot, double diameter, double height);
+Thing tree(const Spot& spot, double trunk_diameter, double height);  // its crown begins above the clearance
 Thing hedge(const Spot& spot, double length, double thickness, double height);
 Thing fence(const Spot& spot, double length, double height);
 
 // A wall with an opening of 2 m height in its middle; `length` is the whole.
 Thing doorway(const Spot& spot, double length, double opening, double height);
+// Over a room: without it one looks at the sky.
+Thing ceiling(const Spot& spot, double length, double width);
 // Seen through; only its frame above 2 m is not.
 Thing glass_pane(const Spot& spot, double length, double height);
 

@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -53,6 +54,21 @@ Thing bush(const Spot& spot, double diameter, double height) {
     }
   }
   return made("bush", m, spot, Expect::obstacle);
+}
+
+Thing tree(const Spot& spot, double trunk_diameter, double height) {
+  Random random(spot.seed);
+  MeshBuilder m;
+  m.surface({Texture::wood, 0.25F, 0.8F, 0.3F, spot.seed});
+  m.frustum(0, 0, 0, 0.8 * height, trunk_diameter / 2, trunk_diameter / 5, 14);
+  const double crown = std::max(kClearance_m + 0.4, 0.45 * height);
+  const Point middle{0, 0, (crown + height) / 2};
+  const Point radii{0.3 * height, 0.3 * height, (height - crown) / 2 - 0.1};
+  m.surface({Texture::leaves, 0.3F, 0.8F, 0.2F, spot.seed + 1});
+  constexpr int kLeaves = 350;
+  for (int i = 0; i < kLeaves; ++i)
+    leaf(m, random, middle + std::cbrt(random.uniform(0.2, 1)) * radii.cwiseProduct(unit_vector(random)), 0.1);
+  return made("tree", m, spot, Expect::obstacle);
 }
 
 // An ellipsoid with its points moved inwards by up to a fifth, cut off flat at the ground.
