@@ -41,10 +41,15 @@ bool Course::reserve(const Rect& rect, bool driven) {
 }
 
 bool Course::begin(double cell_m) {
-  space_ = free_space(world_, cell_m, kWayRadius_m + 0.02);
+  Rect all = rooms_.front();
   area_m2_ = 0;
-  for (const Rect& room : rooms_)
-    area_m2_ += (room.x1 - room.x0) * (room.y1 - room.y0);
+  for (const Rect& r : rooms_) {
+    all = {std::min(all.x0, r.x0), std::min(all.y0, r.y0), std::max(all.x1, r.x1), std::max(all.y1, r.y1)};
+    area_m2_ += (r.x1 - r.x0) * (r.y1 - r.y0);
+  }
+  space_.emplace(world_.ground, all, cell_m, kWayRadius_m + 0.02);
+  for (const Thing& thing : world_.things)
+    space_->add(thing);
   way_ = space_->path(start(), world_.goals.front(), kWayRadius_m);
   return !way_.empty();
 }

@@ -191,7 +191,7 @@ void furnish(Course& course) {
         break;
     }
   }
-  const double enough = random.uniform(0.165, 0.22);
+  const double enough = random.uniform(0.175, 0.24);
   for (int tries = 0; tries < 700 && course.density() < enough; ++tries) {
     const bool shelf_now = random.chance(0.12);
     Thing thing =
@@ -205,7 +205,7 @@ void furnish(Course& course) {
 void add_what_is_passed(Course& course) {
   Random& random = course.random();
   for (int i = random.integer(1, 2); i > 0; --i) {
-    const Eigen::Vector2d at = course.on_the_way(0.2);
+    const Eigen::Vector2d at = course.on_the_way(0.1);
     course.add(newspaper({at.x(), at.y(), random.uniform(-kPi, kPi), 0, random.seed()}, random.uniform(0.4, 0.8),
                          random.uniform(0.3, 0.55)));
   }
