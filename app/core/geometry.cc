@@ -24,6 +24,26 @@ GridGeometry grid_geometry(const GridConfig& grid) {
   return {grid.rows, grid.cols, static_cast<std::int32_t>(std::lround(grid.cell_m * 1000))};
 }
 
+RollingMapParams rolling_map_params(const VehicleConfig& config, const RectifiedGeometry& camera) {
+  // The topmost rows are seldom matched: their windows reach beyond the image.
+  constexpr double kUnmatchedRows = 8;
+  const double above = std::atan((camera.cy - kUnmatchedRows) / camera.focal_px);
+  RollingMapParams p;
+  p.size_m = config.map.size_m;
+  p.keep_s = config.map.keep_s;
+  p.near_m = config.map.near_m;
+  p.far_hits = config.map.far_hits;
+  p.latency_s = config.vehicle.latency_s;
+  p.deceleration_mps2 = config.vehicle.deceleration_mps2;
+  p.radius_m = config.vehicle.radius_m;
+  p.camera = {.height_m = config.camera.height_m,
+              .forward_m = config.camera.forward_m,
+              .left_m = config.camera.left_m,
+              .yaw = config.camera.yaw_deg * kDegree,
+              .angle = std::clamp(above - config.camera.pitch_deg * kDegree, -1.5, 1.5)};
+  return p;
+}
+
 PruneGeometry prune_geometry(const VehicleConfig& config, const RectifiedGeometry& camera) {
   PruneGeometry g;
   g.focal_px = camera.focal_px;

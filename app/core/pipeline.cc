@@ -16,6 +16,10 @@ namespace {
 // More than any board has to spare; a mistake in the configuration must not bring the machine down.
 constexpr std::size_t kMaxArenaBytes = std::size_t{4} << 30;
 
+bool rolls(const VehicleConfig& config) {
+  return config.map.rolling == "yes";
+}
+
 std::size_t size(int n) {
   return static_cast<std::size_t>(n);
 }
@@ -31,6 +35,14 @@ NavGrid take_grid(const GridGeometry& g, Arena& arena) {
 
 // A map for every thread that may count points, the first of them the frame's: adding the others to it costs less than
 // atomic adds in a common one (docs/performance.md).
+RollingMapMemory take_rolling_map(const VehicleConfig& config, Arena& arena) {
+  if (!rolls(config)) return {};
+  const int side = rolling_map_side(grid_geometry(config.grid), config.map.size_m);
+  const std::size_t cells = size(side) * size(side);
+  return {arena.take<std::uint8_t>(cells), arena.take<std::uint8_t>(cells), arena.take<std::int16_t>(cells),
+          arena.take<std::uint32_t>(cells)};
+}
+
 std::vector<NavGrid> take_maps(const GridGeometry& g, int bands, Arena& arena) {
   std::vector<NavGrid> maps(size(std::clamp(omp_get_max_threads(), 1, bands)));
   for (NavGrid& map : maps)
@@ -85,7 +97,10 @@ Pipeline::Buffers::Buffers(const VehicleConfig& config, const RectifiedGeometry&
       residuals(arena.take<GroundHistogram>(size(config.matcher.bands))),
       maps(take_maps(grid_geometry(config.grid), config.matcher.bands, arena)),
       thresholds(arena.take<CellThresholds>(size(config.grid.rows) * size(config.grid.cols))),
-      polar_table(arena.take<PolarEntry>(polar_table_entries(grid_geometry(config.grid)))) {}
+      polar_table(arena.take<PolarEntry>(polar_table_entries(grid_geometry(config.grid)))),
+      rolling(take_rolling_map(config, arena)),
+      rolling_type(rolls(config) ? arena.take_image<std::uint8_t>(config.grid.cols, config.grid.rows)
+                                 : ImageView<std::uint8_t>{}) {}
 
 std::size_t Pipeline::memory_bytes(const VehicleConfig& config, const StereoCalibration& calibration, int width,
                                    int height, const KernelTable& kernels) {
@@ -110,6 +125,7 @@ Pipeline::Pipeline(const VehicleConfig& config, const StereoCalibration& calibra
       min_height_mm_(static_cast<std::int32_t>(std::lround(config.score.min_height_m * 1000))),
       blind_zone_m_(blind_zone_m(config, camera_)),
       remap_(needs_remap(calibration)),
+      rolls_(rolls(config)),
       arena_(std::move(memory)) {
   const int first = stored_range(config.matcher.min_disparity, camera_.doffs()).first_raw;
   if (first >= width || first + config.matcher.disparities <= -width) {
@@ -132,6 +148,9 @@ Pipeline::Pipeline(const VehicleConfig& config, const StereoCalibration& calibra
   ground_range16_ = disparity_of_pitch16(config, camera_, config.prune.ground_range_deg);
   ground_rate16_ = disparity_of_pitch16(config, camera_, config.prune.ground_rate_deg);
   require(build_score_table(b.maps[0].geometry, score_geometry(config, camera_), b.thresholds), "score");
+  if (rolls_) {
+    require(rolling_map_.configure(rolling_map_params(config, camera_), b.maps[0].geometry, b.rolling), "map");
+  }
   PlannerParams planner = config.planner;
   planner.blind_zone_m = blind_zone_m_;
   require(planner_.configure(planner, config.vehicle, b.maps[0].geometry, b.polar_table, kernels.polar_histogram),
@@ -156,6 +175,7 @@ void Pipeline::begin_anew() {
   prune_model_ = mount_model_;
   ground_offset16_.reset();
   plan_state_ = {};
+  if (rolls_) rolling_map_.reset();
   times_ = {};
 }
 
@@ -235,6 +255,15 @@ Status Pipeline::project_and_bin(FrameResult& result) {
   return std::max({cleared, counted, added});
 }
 
+Status Pipeline::remember(const PlanInput& input, FrameResult& result) {
+  result.map = result.grid.type;
+  if (!rolls_ || !input.pose) return Status::ok;
+  const Status added = rolling_map_.add(result.grid, *input.pose);
+  if (added != Status::ok) return added;
+  result.map = buffers_->rolling_type;
+  return rolling_map_.view(result.grid.type, buffers_->rolling_type);
+}
+
 Status Pipeline::process(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
                          const PlanInput& input, FrameResult& result) {
   result.plan = {};  // blocked: a frame that fails leaves no old command behind
@@ -254,8 +283,10 @@ Status Pipeline::process(ImageView<const std::uint8_t> left, ImageView<const std
     return scored == Status::ok && stand_in_ != nullptr ? stand_in_->see(result.grid) : scored;
   });
   if (status != Status::ok) return status;
+  status = timed(*clock_, Stage::remember, result, [&] { return remember(input, result); });
+  if (status != Status::ok) return status;
   status = timed(*clock_, Stage::plan, result,
-                 [&] { return planner_.plan(result.grid.type, input, plan_state_, result.plan); });
+                 [&] { return planner_.plan(result.map, input, plan_state_, result.plan); });
   if (status == Status::ok) times_.add(result.times);
   return status;
 }

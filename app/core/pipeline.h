@@ -17,6 +17,7 @@
 #include "app/core/stage_times.h"
 #include "app/core/vehicle_config.h"
 #include "app/nav/planner.h"
+#include "app/nav/rolling_map.h"
 #include "hal/clock.h"
 
 namespace lakshya {
@@ -29,7 +30,8 @@ struct FrameResult {
   ImageView<const PixelClass> classes;
   std::int32_t ground_offset16 = 0;  // the floor's disparity against the mount's plane, 1/16 px (kernels/ground)
   PixelCounts pixels;
-  NavGrid grid;
+  NavGrid grid;                       // of this frame alone
+  ImageView<const std::uint8_t> map;  // what was planned with: the rolling map's cells, or grid.type
   Plan plan;
   FrameTimes times;
 };
@@ -57,7 +59,8 @@ class Pipeline {
   static std::size_t memory_bytes(const VehicleConfig& config, const StereoCalibration& calibration, int width,
                                   int height, const KernelTable& kernels);
 
-  // left, right: raw images of the size given at the start.
+  // left, right: raw images of the size given at the start. Without input.pose, or with map.rolling: no, the frame is planned with
+  // alone.
   Status process(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, const PlanInput& input,
                  FrameResult& result);
 
@@ -96,12 +99,15 @@ class Pipeline {
     std::vector<NavGrid> maps;
     std::span<CellThresholds> thresholds;
     std::span<PolarEntry> polar_table;
+    RollingMapMemory rolling;  // empty, as its view, where there is none
+    ImageView<std::uint8_t> rolling_type;
   };
 
   void make_maps(const StereoCalibration& calibration);
   Status rectify(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, FrameResult& result);
   Status find_ground(FrameResult& result);
   Status project_and_bin(FrameResult& result);
+  Status remember(const PlanInput& input, FrameResult& result);
   Rows band_rows(int band) const;
 
   const KernelTable* kernels_;
@@ -112,6 +118,7 @@ class Pipeline {
   std::int32_t min_height_mm_;
   double blind_zone_m_;
   bool remap_;
+  bool rolls_;
   Arena arena_;
   std::unique_ptr<Buffers> buffers_;
   PruneModel mount_model_;
@@ -119,6 +126,7 @@ class Pipeline {
   std::int32_t ground_range16_ = 0;
   std::int32_t ground_rate16_ = 0;
   std::optional<std::int32_t> ground_offset16_;  // of the last frame
+  RollingMap rolling_map_;
   Planner planner_;
   PlanState plan_state_;
   StageTimes times_;

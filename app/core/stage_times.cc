@@ -3,7 +3,8 @@
 namespace lakshya {
 
 const char* to_string(Stage stage) {
-  constexpr const char* kNames[kStages] = {"rectify", "match", "ground", "project_and_bin", "score", "plan"};
+  constexpr const char* kNames[kStages] = {"rectify", "match",    "ground", "project_and_bin",
+                                           "score",   "remember", "plan"};
   return kNames[static_cast<int>(stage)];
 }
 

@@ -14,8 +14,8 @@
 
 namespace lakshya {
 
-enum class Stage : std::uint8_t { rectify, match, ground, project_and_bin, score, plan };
-inline constexpr int kStages = 6;
+enum class Stage : std::uint8_t { rectify, match, ground, project_and_bin, score, remember, plan };
+inline constexpr int kStages = 7;
 const char* to_string(Stage stage);
 
 // The three passes over the image inside Stage::match: descriptors, search for each pixel's partner, local support.

@@ -71,6 +71,14 @@ struct ScoreConfig {
   double min_height_m = 0.07;        // h_min
 };
 
+struct MapConfig {
+  std::string rolling = "yes";
+  double size_m = 50;
+  double keep_s = 20;
+  double near_m = 1.5;
+  int far_hits = 2;
+};
+
 struct VehicleConfig {
   std::string profile = "outdoor";
   CameraConfig camera;
@@ -78,6 +86,7 @@ struct VehicleConfig {
   PruneConfig prune;
   GridConfig grid;
   ScoreConfig score;
+  MapConfig map;
   PlannerParams planner;
   VehicleParams vehicle;
   DriversConfig drivers;

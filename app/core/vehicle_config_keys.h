@@ -24,13 +24,14 @@ struct Group {
   std::string_view name;
   std::string_view meaning;
 };
-inline constexpr std::array<Group, 24> kGroups{{
+inline constexpr std::array<Group, 25> kGroups{{
     {"camera", "Mount of the left camera, relative to the ground under the wheels and to the turning centre"},
     {"matcher", "From the rectified pair to disparities"},
     {"prune", "Which points matter: depth, floor and ceiling"},
     {"grid",
      "The navigation map: its first row begins at the turning centre, half of its columns lie to each side"},
     {"score", "What makes a cell of the map an obstacle or unoccupied"},
+    {"map", "The rolling map, which remembers what was seen"},
     {"planner", "From the map to a direction"},
     {"vehicle", "The vehicle's body, speed and steering"},
     {"drivers", "Which devices the vehicle has"},
@@ -207,6 +208,20 @@ void visit_score_keys(Score& c, Visitor& v) {
     c.min_height_m, Range{0, 2});
 }
 
+template <class Map, class Visitor>
+void visit_map_keys(Map& c, Visitor& v) {
+  v(Key{"map.rolling", "",
+        "What was seen is carried along by odometry and heading; no: every frame is planned with alone"},
+    c.rolling, Names{kNoYes});
+  v(Key{"map.size_m", "m", "Side of the square about the vehicle within which things are remembered"}, c.size_m,
+    Range{5, 200});
+  v(Key{"map.keep_s", "s", "What was not seen for so long is forgotten"}, c.keep_s, Range{0, 3600});
+  v(Key{"map.near_m", "m",
+        "An obstacle nearer than this and the braking distance is believed when one frame shows it"},
+    c.near_m, Range{0, 100});
+  v(Key{"map.far_hits", "frames", "Farther away, at most so many frames must show it"}, c.far_hits, Range{1, 12});
+}
+
 template <class Planner, class Visitor>
 void visit_planner_keys(Planner& c, Visitor& v) {
   v(Key{"planner.name", "",
@@ -284,6 +299,7 @@ void visit_keys(Config& c, Visitor&& v) {
   visit_prune_keys(c.prune, v);
   visit_grid_keys(c.grid, v);
   visit_score_keys(c.score, v);
+  visit_map_keys(c.map, v);
   visit_planner_keys(c.planner, v);
   visit_vehicle_keys(c.vehicle, v);
   visit_device_keys(c, v);

@@ -192,7 +192,7 @@ void Control::take_drive(Nanoseconds now) {
     if (travel.time != before.time) {
       way_m_ += (std::abs(travel.left_m - before.left_m) + std::abs(travel.right_m - before.right_m)) / 2;
       (void)odometry_.add(travel);
-      if (odometry_.pose(pose_) == Status::ok) yaw_.add(pose_.time, pose_.yaw);
+      if (odometry_.pose(pose_) == Status::ok) history_.add(pose_);
     }
   }
   const bool has_travel = now - drive_.travel.time <= kOldestNews;
@@ -229,7 +229,7 @@ bool Control::has_ended() const {
 }
 
 void Control::tell(Nanoseconds now) {
-  exchange_->nav.writing() = {pose_, target_, yaw_};
+  exchange_->nav.writing() = {pose_, target_, history_};
   (void)exchange_->nav.publish();
   for (const StateNote& note : machine_.notes())
     (void)exchange_->notes.push(note);

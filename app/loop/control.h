@@ -88,7 +88,7 @@ class Control {
   EventSet counted_;                  // those of the turn before
   std::uint64_t lost_decisions_ = 0;  // at the last reset
   PoseSample pose_;
-  YawHistory yaw_;
+  PoseHistory history_;
   std::size_t way_point_ = 0;
   double target_ = 0;
   bool has_goal_ = false;

@@ -4,10 +4,10 @@
 #include <atomic>
 #include <cstdint>
 
+#include "app/loop/pose_history.h"
 #include "app/loop/ring.h"
 #include "app/loop/safety_machine.h"
 #include "app/loop/triple_buffer.h"
-#include "app/loop/yaw_history.h"
 #include "app/nav/planner.h"
 #include "hal/camera.h"
 #include "hal/compass.h"
@@ -51,7 +51,7 @@ struct HeadingNote {
 struct NavNote {
   PoseSample pose;
   double target = 0;  // rad, from straight ahead of that pose
-  YawHistory yaw;
+  PoseHistory history;
 };
 
 // Perception to control: what a pair gave.

@@ -37,7 +37,9 @@ void Perception::warm_up() {
 
 PlanInput Perception::input(const PlanNote& plan) const {
   const double turned = wrapped_angle(plan.pose.yaw - planned_yaw_);
-  PlanInput input{.target = plan.target, .heading_change = turned};
+  PlanInput input{.target = plan.target,
+                  .heading_change = turned,
+                  .pose = MapPose{{plan.pose.east_m, plan.pose.north_m, plan.pose.yaw}, plan.taken}};
   if (has_direction_) input.previous = wrapped_angle(direction_ - turned);
   return input;
 }
@@ -52,7 +54,7 @@ void Perception::describe(PlanNote& plan) const {
   plan.speed_mps = p.speed_mps;
   plan.took = result_.times.frame();
   plan.ground_pitch_deg = pitch_deg_of_disparity16(*config_, pipeline_->camera(), result_.ground_offset16);
-  const NearestObstacle nearest = nearest_obstacle(result_.grid.type, result_.grid.geometry);
+  const NearestObstacle nearest = nearest_obstacle(result_.map, result_.grid.geometry);
   plan.obstacles = nearest.cells;
   plan.nearest_m = nearest.distance_m;
 }
@@ -62,9 +64,8 @@ bool Perception::step(PlanNote& plan) {
   const RawPair& raw = exchange_->raw.reading();
   (void)exchange_->nav.take();
   const NavNote& nav = exchange_->nav.reading();
-  plan = {
-      .number = raw.number, .taken = raw.taken, .arrived = raw.arrived, .started = clock_->now(), .pose = nav.pose};
-  plan.pose.yaw = nav.yaw.at_time(raw.taken);
+  plan = {.number = raw.number, .taken = raw.taken, .arrived = raw.arrived, .started = clock_->now()};
+  plan.pose = nav.history.at_time(raw.taken);
   plan.target = wrapped_angle(nav.target + nav.pose.yaw - plan.pose.yaw);
   exchange_->looked_at.store(raw.number, std::memory_order_release);
   exchange_->working_since.store(plan.started, std::memory_order_release);
@@ -88,7 +89,7 @@ void Perception::publish(const PlanNote& plan) {
   MapNote& map = exchange_->map.writing();
   map.plan = plan;
   for (int v = 0; v < map.type.height; ++v)
-    std::ranges::copy(row_span(ImageView<const std::uint8_t>(result_.grid.type), v), map.type.row(v));
+    std::ranges::copy(row_span(result_.map, v), map.type.row(v));
   (void)exchange_->map.publish();
 }
 

@@ -71,7 +71,7 @@ class Secretary final : public FrameSink {
   // On the virtual clock every map can be drawn; on the machine's, those that are there when there is time.
   void on_frame(const FrameResult& frame, const PlanNote& plan) override {
     const MemoryWatch not_the_loops(WatchedPlace::nowhere);
-    draw(frame.grid.type, plan);
+    draw(frame.map, plan);
   }
 
  private:

@@ -20,6 +20,7 @@
 
 #include "app/nav/clear_distance.h"
 #include "app/nav/params.h"
+#include "app/nav/rolling_map.h"
 #include "app/nav/speed_governor.h"
 #include "app/nav/steering.h"
 #include "app/nav/vfh.h"
@@ -37,6 +38,9 @@ struct PlanInput {
   std::optional<double> previous =
       std::nullopt;           // what the last plan chose, seen from the vehicle as it stands now
   double heading_change = 0;  // turned since the last plan, counter-clockwise positive
+  // Where the map's frame was taken: for the pipeline's rolling map, which is left out without it. The planner looks at the map
+  // only.
+  std::optional<MapPose> pose = std::nullopt;
 };
 
 // What one frame of VFH+ leaves to the next. A new one starts free.

@@ -96,8 +96,8 @@ TEST(StageTimes, AFrameIsCountedInItsStagesAndPasses) {
   const auto times = std::make_unique<StageTimes>();
   times->add(frame_of(1'000'000'007));
   EXPECT_EQ(times->of(Stage::rectify).max(), 10);
-  EXPECT_EQ(times->of(Stage::plan).max(), 60);
-  EXPECT_EQ(times->frame().max(), 10 + 20 + 30 + 40 + 50 + 60 + 5);
+  EXPECT_EQ(times->of(Stage::plan).max(), 70);
+  EXPECT_EQ(times->frame().max(), 10 + 20 + 30 + 40 + 50 + 60 + 70 + 6);
   EXPECT_EQ(times->of(MatchPass::describe).max(), 4);
   EXPECT_EQ(times->of(MatchPass::search).max(), 8);
   EXPECT_EQ(times->of(MatchPass::support).max(), 8);

@@ -41,6 +41,7 @@ TEST(VehicleConfigKeys, EveryFieldHasItsKey) {
   EXPECT_EQ(keys["prune"], field_count<PruneConfig>());
   EXPECT_EQ(keys["grid"], field_count<GridConfig>());
   EXPECT_EQ(keys["score"], field_count<ScoreConfig>());
+  EXPECT_EQ(keys["map"], field_count<MapConfig>());
   EXPECT_EQ(keys["planner"], field_count<PlannerParams>());
   EXPECT_EQ(keys["vehicle"], field_count<VehicleParams>());
   EXPECT_EQ(keys["drivers"], field_count<DriversConfig>());

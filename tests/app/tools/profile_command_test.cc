@@ -149,10 +149,10 @@ void expect_trace(const Json& trace, int frames) {
     ++names[e["name"]];
     complete.push_back(e);
   }
-  const std::map<std::string, int> wanted{{"frame", frames},    {"rectify", frames},         {"match", frames},
-                                          {"describe", frames}, {"search", frames},          {"support", frames},
-                                          {"ground", frames},   {"project_and_bin", frames}, {"score", frames},
-                                          {"plan", frames}};
+  const std::map<std::string, int> wanted{
+      {"frame", frames},  {"rectify", frames},  {"match", frames},  {"describe", frames},
+      {"search", frames}, {"support", frames},  {"ground", frames}, {"project_and_bin", frames},
+      {"score", frames},  {"remember", frames}, {"plan", frames}};
   EXPECT_EQ(names, wanted);
   expect_nested(complete);
 }

@@ -1,0 +1,128 @@
+// The map that remembers: docs/contract.md section 4. A square of cells fixed to the odometric world, rolled by whole cells as the
+// vehicle moves; what leaves it is forgotten. Each cell holds integer evidence: nothing here depends on the number of threads.
+//
+// Evidence. A frame's obstacle cell adds to the world cell that holds its centre: kBelieved within near_m plus the braking
+// distance, beyond that less with distance, at least kBelieved / far_hits. A cell with kBelieved is an obstacle, with less it is
+// unknown. A world cell whose centre lies in an unoccupied cell of the frame loses kCleared at once, or less from far away, and
+// is unoccupied when nothing is left. Unknown cells of a frame change nothing: what the camera does not see (blind zone, beside,
+// behind) stays for keep_s.
+// Floor seen below something does not clear it: an obstacle loses evidence only where the camera's upper edge, as far away as the
+// cell is, lies above the greatest mean height that the cell was seen with. So a bar or a table top that has left the image at
+// the top stays.
+// The ground below the vehicle is free: unknown cells within its radius become unoccupied; obstacles well within it (kSunk cells
+// from its edge) cannot be there and are forgotten, those at its edge may touch it and stay.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "app/nav/way_point.h"
+#include "kernels/base/image_view.h"
+#include "kernels/base/nav_grid.h"
+#include "kernels/base/status.h"
+
+namespace lakshya {
+
+// Where a frame was taken.
+struct MapPose {
+  Pose pose;
+  std::int64_t time_ns = 0;  // on any one clock
+};
+
+// What the camera's upper edge sees. Lengths in metres from the ground below the turning centre, angles in radians.
+struct UpperEdge {
+  double height_m = 0.6;
+  double forward_m = 0;
+  double left_m = 0;
+  double yaw = 0;    // positive to the left
+  double angle = 0;  // of the upper edge above the horizon, pitch included; within +-1.5
+
+  // Greatest height seen above a point of the ground; none behind the camera.
+  double height_at(double forward_m, double left_m) const;
+};
+
+struct RollingMapParams {
+  double size_m = 50;              // side of the square
+  double keep_s = 20;              // what was not seen for so long is forgotten
+  double near_m = 1.5;             // nearer than this plus the braking distance an obstacle is believed at once
+  int far_hits = 2;                // frames that must see it anywhere, 1 to kBelieved
+  double latency_s = 0.25;         // of braking
+  double deceleration_mps2 = 2.0;  // of braking, > 0
+  double radius_m = 0.35;          // the vehicle's
+  UpperEdge camera;
+};
+
+// One of each for every cell, rolling_map_side() squared.
+struct RollingMapMemory {
+  std::span<std::uint8_t> hits;    // evidence of an obstacle
+  std::span<std::uint8_t> frees;   // 1: seen free
+  std::span<std::int16_t> height;  // greatest mean height of the obstacle, mm
+  std::span<std::uint32_t> seen;   // when last seen, in units of kTickNs since the first frame
+};
+
+inline constexpr int kRollingMapMaxSide = 4096;  // cells
+
+// Cells of a side; 0: outside 1 to kRollingMapMaxSide.
+int rolling_map_side(const GridGeometry& geometry, double size_m);
+
+class RollingMap {
+ public:
+  static constexpr int kBelieved = 12;
+  static constexpr int kMost = 36;  // evidence saturates here
+  static constexpr int kCleared = 6;
+  static constexpr int kClearedFar = 2;
+  static constexpr int kSunk = 2;
+  static constexpr double kEdgeMarginM = 0.05;  // of the upper edge above a remembered height
+  static constexpr std::int64_t kTickNs = 10'000'000;
+
+  // geometry: of the frames. bad_argument: a parameter that is not finite or out of range; size_mismatch: the memory is not of
+  // rolling_map_side(). Forgets everything. Keeps the memory.
+  Status configure(const RollingMapParams& params, const GridGeometry& geometry, const RollingMapMemory& memory);
+  void reset();
+
+  // Takes a frame in: type, count and height_sum are read. Poses in order of time. bad_argument: not of the geometry, or a pose
+  // that is not finite or beyond 10^8 cells; the map is then as before.
+  Status add(const NavGrid& frame, const MapPose& at);
+
+  // The map as seen from the pose of the last add(): cells of CellType, forward half-plane. Every believed obstacle marks the
+  // cell that holds its centre; all others ask the world cell below their own centre, and are unknown where that is an obstacle.
+  // Beyond the square's edge `frame` counts alone. size_mismatch; bad_argument: nothing was added yet.
+  Status view(ImageView<const std::uint8_t> frame, ImageView<std::uint8_t> type) const;
+
+ private:
+  struct Sight;  // of one frame
+  struct Run;
+
+  bool holds(std::int64_t x, std::int64_t y) const;
+  std::size_t index(std::int64_t x, std::int64_t y) const;
+  void forget(std::size_t i);
+  bool is_stale(std::size_t i) const { return now_ - memory_.seen[i] > keep_; }
+  void roll(std::int64_t x, std::int64_t y);
+  void clear_seen_free(const NavGrid& frame, const Sight& sight);
+  void see_free(std::size_t i, double forward, double left);
+  void add_obstacles(const NavGrid& frame, const Sight& sight);
+  void stand_here(const Sight& sight);
+  Run run_of(const Sight& sight, std::int64_t y) const;
+  template <class Visit>
+  void visit_below(const Sight& sight, Visit&& visit) const;
+  int weight(double forward, double left, int near, int far) const;
+
+  RollingMapParams params_;
+  GridGeometry geometry_;
+  RollingMapMemory memory_;
+  int side_ = 0;
+  double cell_m_ = 0.1;
+  std::uint32_t keep_ = 0;  // ticks
+  double rise_ = 0;         // of the upper edge, per metre
+
+  bool started_ = false;
+  std::int64_t first_ns_ = 0;
+  MapPose at_;
+  std::int64_t x_begin_ = 0;  // world cells of the square's corner
+  std::int64_t y_begin_ = 0;
+  std::uint32_t now_ = 0;
+  double near_m_ = 0;  // within which one frame is enough, now
+};
+
+}  // namespace lakshya
