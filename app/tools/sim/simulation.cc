@@ -22,6 +22,13 @@ VehicleSettings vehicle_settings(VehicleSettings settings, const VehicleConfig& 
   return settings;
 }
 
+ImageSensorSettings sensor_settings(const SimulationSettings& settings, const StereoCalibration& calibration) {
+  ImageSensorSettings sensor = settings.sensor;
+  sensor.focal_px = calibration.left.fx;
+  sensor.seed = settings.seed;
+  return sensor;
+}
+
 // Never the same twice, or the loop would take the camera for frozen.
 void fill_with_noise(ImageView<std::uint8_t> image, std::uint64_t seed) {
   for (int v = 0; v < image.height; ++v) {
@@ -47,7 +54,9 @@ Simulation::Simulation(const SimulationSettings& settings, const World& world, c
       true_mount_(with_error(config.camera, settings.mount_error_deg, settings.seed)),
       vehicle_(vehicle_settings(settings.vehicle, config), world, settings.seed, clock.now()),
       renderer_(world),
-      sensor_(settings.sensor),
+      left_rays_(calibration_.left, settings.rig.width, settings.rig.height),
+      right_rays_(calibration_.right, settings.rig.width, settings.rig.height),
+      sensor_(sensor_settings(settings, calibration_), left_rays_, right_rays_),
       left_(settings.rig.width, settings.rig.height),
       right_(settings.rig.width, settings.rig.height) {}
 
@@ -76,17 +85,16 @@ Status Simulation::produce(Nanoseconds time, std::uint64_t number, ImageView<std
   }
   const EyePoses poses = eyes(shot_.rectified, calibration_, rectification_.R1);
   renderer_.set_time(shot_.time_s);
-  const auto draw = [&](const CameraModel& model, const CameraPose& pose, Image<float>& image) {
-    renderer_.radiance({.model = model,
-                        .width = image.width(),
-                        .height = image.height(),
-                        .world_from_camera = pose.world_from_camera,
-                        .position = pose.position},
-                       image.view());
+  renderer_.radiance(left_rays_, poses.left, left_.view());
+  renderer_.radiance(right_rays_, poses.right, right_.view());
+  const auto sun = [&](const CameraPose& pose) {
+    return sun_in_picture(pose, world_->light.sun_direction, renderer_.sun_at(pose.position));
   };
-  draw(calibration_.left, poses.left, left_);
-  draw(calibration_.right, poses.right, right_);
-  sensor_.expose(number, shot_.vehicle.turn_rate_rps, left_.view(), right_.view(), left, right);
+  const SensorFrame frame{.number = number,
+                          .yaw_rate = shot_.vehicle.turn_rate_rps,
+                          .sun_left = sun(poses.left),
+                          .sun_right = sun(poses.right)};
+  sensor_.expose(left_.view(), right_.view(), frame, left, right);
   return Status::ok;
 }
 
