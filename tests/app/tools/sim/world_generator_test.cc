@@ -1,0 +1,98 @@
+#include "app/tools/sim/world_generator.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <set>
+
+#include "app/tools/sim/free_space.h"
+#include "app/tools/sim/shapes.h"
+#include "app/tools/sim/truth.h"
+
+namespace lakshya::sim {
+namespace {
+
+constexpr int kSeeds = 100;
+
+bool same(const World& a, const World& b) {
+  if (a.things.size() != b.things.size() || a.start.yaw != b.start.yaw || a.goals != b.goals) return false;
+  for (std::size_t i = 0; i < a.things.size(); ++i) {
+    const Thing& s = a.things[i];
+    const Thing& t = b.things[i];
+    if (s.name != t.name || s.mesh.vertices != t.mesh.vertices || s.mesh.surfaces != t.mesh.surfaces) return false;
+  }
+  return a.ground.patches.size() == b.ground.patches.size() && a.traits == b.traits;
+}
+
+bool straight_line_is_blocked(const World& world, const TrueGeometry& truth) {
+  const Eigen::Vector2d from{world.start.x, world.start.y};
+  for (int i = 0; i <= 300; ++i) {
+    const Eigen::Vector2d p = from + (world.goals.front() - from) * (i / 300.0);
+    const double z = ground_height(world.ground, p.x(), p.y());
+    if (truth.nearest(p.x(), p.y(), z + 0.05, z + kClearance_m, 0, true).distance_m < kRobotRadius_m) return true;
+    if (truth.dropoff_at(p.x(), p.y())) return true;
+  }
+  return false;
+}
+
+void expect_course(const World& world, double least_m, double most_m) {
+  SCOPED_TRACE(world.name);
+  const Eigen::Vector2d from{world.start.x, world.start.y};
+  const Eigen::Vector2d ahead = world.goals.front() - from;
+  EXPECT_GE(obstacle_count(world) / drivable_area_m2(world), kLeastDensity);
+  const double path = shortest_path_m(world, kWayRadius_m);
+  EXPECT_TRUE(std::isfinite(path));
+  EXPECT_GE(ahead.norm(), least_m);
+  EXPECT_LE(ahead.norm(), most_m);
+  EXPECT_LE(std::abs(std::remainder(std::atan2(ahead.y(), ahead.x()) - world.start.yaw, 2 * 3.14159265358979)),
+            40 * 3.14159265358979 / 180);
+
+  const TrueGeometry truth(world);
+  EXPECT_GE(truth.nearest(from.x(), from.y(), 0.05, kClearance_m, 0, true).distance_m, 0.9);
+  World still = world;  // who walks may come to the goal, and goes on
+  std::erase_if(still.things, [](const Thing& t) { return t.walk.has_value(); });
+  EXPECT_GE(TrueGeometry(still)
+                .nearest(world.goals.front().x(), world.goals.front().y(), 0.05, kClearance_m, 0, true)
+                .distance_m,
+            0.8);
+  EXPECT_TRUE(straight_line_is_blocked(world, truth));
+
+  std::set<std::string> names;
+  for (const Thing& thing : world.things)
+    EXPECT_TRUE(names.insert(thing.name).second) << thing.name;
+}
+
+void expect_courses(Kind kind, double least_m, double most_m) {
+  std::chrono::duration<double> spent{};
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    const auto before = std::chrono::steady_clock::now();
+    const World world = random_world(kind, static_cast<std::uint64_t>(seed));
+    spent += std::chrono::steady_clock::now() - before;
+    expect_course(world, least_m, most_m);
+  }
+  std::cout << "a world takes " << spent.count() / kSeeds << " s\n";
+#ifdef NDEBUG
+  EXPECT_LT(spent.count() / kSeeds, 0.5);
+#endif
+}
+
+TEST(WorldGenerator, IndoorCourses) {
+  expect_courses(Kind::indoor, 6.5, 13);
+}
+
+TEST(WorldGenerator, OutdoorCourses) {
+  expect_courses(Kind::outdoor, 12, 16.5);
+}
+
+TEST(WorldGenerator, ASeedIsAWorld) {
+  for (const Kind kind : {Kind::indoor, Kind::outdoor}) {
+    const World first = random_world(kind, 11);
+    EXPECT_TRUE(same(first, random_world(kind, 11)));
+    for (std::uint64_t seed = 12; seed < 15; ++seed)
+      EXPECT_FALSE(same(first, random_world(kind, seed)));
+  }
+}
+
+}  // namespace
+}  // namespace lakshya::sim
