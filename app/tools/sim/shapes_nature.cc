@@ -44,7 +44,7 @@ Thing bush(const Spot& spot, double diameter, double height) {
                     std::max(height / 2 - size, 0.02)};
   const Point middle{0, 0, height / 2};
   const double skin = 4 * std::numbers::pi * (diameter / 2) * (height / 2);
-  const int leaves = std::clamp(static_cast<int>(2.2 * skin / (size * size)), 150, 900);
+  const int leaves = std::clamp(static_cast<int>(2.2 * skin / (size * size)), 150, 700);
   for (int tone = 0; tone < 2; ++tone) {
     m.surface(
         {Texture::leaves, tone == 0 ? 0.25F : 0.4F, 0.8F, 0.15F, spot.seed + static_cast<std::uint32_t>(tone)});

@@ -76,16 +76,11 @@ TrueGeometry::Triangle TrueGeometry::triangle(const Mesh& mesh, std::size_t inde
   Triangle t{};
   for (std::size_t i = 0; i < 3; ++i)
     t.corners[i] = mesh.vertices[mesh.triangles[index][i]].cast<double>();
-  const Eigen::Vector3d low = t.corners[0].cwiseMin(t.corners[1]).cwiseMin(t.corners[2]);
-  const Eigen::Vector3d high = t.corners[0].cwiseMax(t.corners[1]).cwiseMax(t.corners[2]);
-  t.x0 = low.x();
-  t.y0 = low.y();
-  t.z0 = low.z();
-  t.x1 = high.x();
-  t.y1 = high.y();
-  t.z1 = high.z();
+  const auto& [a, b, c] = mesh.triangles[index];
+  const Eigen::Vector3f low = mesh.vertices[a].cwiseMin(mesh.vertices[b]).cwiseMin(mesh.vertices[c]);
+  const Eigen::Vector3f high = mesh.vertices[a].cwiseMax(mesh.vertices[b]).cwiseMax(mesh.vertices[c]);
+  t.bounds = {low.x(), low.y(), high.x(), high.y(), low.z(), high.z(), 0, glass};
   t.thing = thing;
-  t.glass = glass;
   return t;
 }
 
@@ -98,6 +93,8 @@ TrueGeometry::TrueGeometry(const World& world) : ground_(world.ground), steps_(g
     std::vector<Triangle> triangles;
     for (std::size_t t = 0; t < thing.mesh.triangles.size(); ++t)
       triangles.push_back(triangle(thing.mesh, t, index, glass));
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      triangles[t].bounds.triangle = static_cast<std::uint32_t>(t);
     if (!thing.walk) {
       triangles_.insert(triangles_.end(), triangles.begin(), triangles.end());
       continue;
@@ -116,10 +113,10 @@ void TrueGeometry::make_grid() {
   double y1 = -kNone;
   x0_ = y0_ = kNone;
   for (const Triangle& t : triangles_) {
-    x0_ = std::min(x0_, t.x0);
-    y0_ = std::min(y0_, t.y0);
-    x1 = std::max(x1, t.x1);
-    y1 = std::max(y1, t.y1);
+    x0_ = std::min(x0_, static_cast<double>(t.bounds.x0));
+    y0_ = std::min(y0_, static_cast<double>(t.bounds.y0));
+    x1 = std::max(x1, static_cast<double>(t.bounds.x1));
+    y1 = std::max(y1, static_cast<double>(t.bounds.y1));
   }
   bucket_m_ = std::max({0.25, (x1 - x0_) / 64, (y1 - y0_) / 64});
   columns_ = static_cast<int>((x1 - x0_) / bucket_m_) + 1;
@@ -132,32 +129,47 @@ void TrueGeometry::make_grid() {
                                                   static_cast<std::size_t>(rows_));
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     const Triangle& t = triangles_[i];
-    for (int r = row(t.y0); r <= row(t.y1); ++r) {
-      for (int c = column(t.x0); c <= column(t.x1); ++c)
+    for (int r = row(static_cast<double>(t.bounds.y0)); r <= row(static_cast<double>(t.bounds.y1)); ++r) {
+      for (int c = column(static_cast<double>(t.bounds.x0)); c <= column(static_cast<double>(t.bounds.x1)); ++c)
         buckets[static_cast<std::size_t>(r * columns_ + c)].push_back(static_cast<std::uint32_t>(i));
     }
   }
   for (const auto& bucket : buckets) {
     first_.push_back(static_cast<std::uint32_t>(entries_.size()));
-    entries_.insert(entries_.end(), bucket.begin(), bucket.end());
+    for (const std::uint32_t i : bucket) {
+      entries_.push_back(triangles_[i].bounds);
+      entries_.back().triangle = i;
+    }
   }
   first_.push_back(static_cast<std::uint32_t>(entries_.size()));
 }
 
-void TrueGeometry::visit(const Triangle& t, const Query& query, Nearest& best) {
-  if ((t.glass && !query.glass) || t.z1 < query.z_low || t.z0 > query.z_high) return;
-  const double dx = std::max({t.x0 - query.x, 0.0, query.x - t.x1});
-  const double dy = std::max({t.y0 - query.y, 0.0, query.y - t.y1});
+void TrueGeometry::visit(const Bounds& bounds, const std::vector<Triangle>& triangles, const Query& query,
+                         Nearest& best) {
+  const double dx =
+      std::max({static_cast<double>(bounds.x0) - query.x, 0.0, query.x - static_cast<double>(bounds.x1)});
+  const double dy =
+      std::max({static_cast<double>(bounds.y0) - query.y, 0.0, query.y - static_cast<double>(bounds.y1)});
   if (dx * dx + dy * dy >= best.distance_m * best.distance_m) return;
+  if ((bounds.glass && !query.glass) || static_cast<double>(bounds.z1) < query.z_low ||
+      static_cast<double>(bounds.z0) > query.z_high)
+    return;
+  const Triangle& t = triangles[bounds.triangle];
   const double distance =
       distance_to_triangle(t.corners[0], t.corners[1], t.corners[2], query.x, query.y, query.z_low, query.z_high);
   if (distance < best.distance_m) best = {distance, t.thing, -1};
 }
 
 void TrueGeometry::visit_bucket(int column, int row, const Query& query, Nearest& best) const {
+  const double x0 = x0_ + column * bucket_m_;
+  const double y0 = y0_ + row * bucket_m_;
+  // What reaches beyond a bucket is in the next one, too. The last ones hold what rounding puts past their edge.
+  constexpr double kRounding = 1e-9;
+  if (distance_to_rect({x0, y0, x0 + bucket_m_, y0 + bucket_m_}, query.x, query.y) > best.distance_m + kRounding)
+    return;
   const auto bucket = static_cast<std::size_t>(row * columns_ + column);
   for (std::uint32_t i = first_[bucket]; i < first_[bucket + 1]; ++i)
-    visit(triangles_[entries_[i]], query, best);
+    visit(entries_[i], triangles_, query, best);
 }
 
 // Rings of buckets about the one that is nearest to the point, until what they hold cannot be nearer.
@@ -209,7 +221,7 @@ Nearest TrueGeometry::nearest(double x, double y, double z_low, double z_high, d
     const double ground = ground_height(ground_, place.x, place.y);
     const Query own{c * dx + s * dy, c * dy - s * dx, z_low - ground, z_high - ground, glass};
     for (const Triangle& t : walker.triangles)
-      visit(t, own, best);
+      visit(t.bounds, walker.triangles, own, best);
   }
   return best;
 }

@@ -37,11 +37,16 @@ class TrueGeometry {
   bool dropoff_at(double x, double y) const;
 
  private:
+  // Round a triangle: looked at first, and mostly alone. Corners are floats, so that these are exact.
+  struct Bounds {
+    float x0, y0, x1, y1, z0, z1;
+    std::uint32_t triangle;  // index
+    bool glass;
+  };
   struct Triangle {
     std::array<Eigen::Vector3d, 3> corners;
-    double x0, y0, x1, y1, z0, z1;
+    Bounds bounds;
     int thing;
-    bool glass;
   };
   struct Walker {
     Walk walk;
@@ -56,7 +61,8 @@ class TrueGeometry {
   };
 
   static Triangle triangle(const Mesh& mesh, std::size_t index, int thing, bool glass);
-  static void visit(const Triangle& t, const Query& query, Nearest& best);
+  static void visit(const Bounds& bounds, const std::vector<Triangle>& triangles, const Query& query,
+                    Nearest& best);
   void make_grid();
   void search_grid(const Query& query, Nearest& best) const;
   void visit_bucket(int column, int row, const Query& query, Nearest& best) const;
@@ -68,8 +74,8 @@ class TrueGeometry {
   std::vector<GroundStep> steps_;
   double x0_ = 0, y0_ = 0, bucket_m_ = 1;
   int columns_ = 0, rows_ = 0;
-  std::vector<std::uint32_t> first_;    // of each bucket, and one past the last
-  std::vector<std::uint32_t> entries_;  // indices of triangles_, bucket after bucket
+  std::vector<std::uint32_t> first_;  // entry of each bucket, and one past the last
+  std::vector<Bounds> entries_;       // bucket after bucket
 };
 
 }  // namespace lakshya::sim
