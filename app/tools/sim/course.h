@@ -79,7 +79,13 @@ class Course {
   double area_m2_ = 0;
 };
 
-// Private to the generator, too. False: try again with other numbers.
+// Private to the generator, too.
+bool has_trait(const World& world, std::string_view trait);
+void maybe_add_indoor_stairs(Course& course, const Rect& room);  // before begin()
+void furnish_rooms(Course& course);
+void add_what_is_passed(Course& course);  // papers on the way, things that hang high over it
+
+// False: try again with other numbers.
 bool furnish_indoor(World& world, Random& random);
 bool furnish_outdoor(World& world, Random& random);
 
