@@ -12,12 +12,13 @@
 #include "app/core/loop_config_keys.h"
 #include "app/core/vehicle_config.h"
 #include "app/nav/vfh.h"
+#include "app/nav/vfh_star.h"
 
 namespace lakshya {
 
 inline constexpr std::array<std::string_view, 3> kMatcherNames{"sgm", "census", "sad"};
 inline constexpr std::array<std::string_view, 2> kEdgeNames{"log", "sobel"};
-inline constexpr std::array<std::string_view, 2> kPlannerNames{"vfh+", "vfh"};
+inline constexpr std::array<std::string_view, 3> kPlannerNames{"vfh+", "vfh*", "vfh"};
 inline constexpr std::array<std::string_view, 2> kUnknownNames{"stop", "slow"};
 
 struct Group {
@@ -225,8 +226,9 @@ void visit_map_keys(Map& c, Visitor& v) {
 template <class Planner, class Visitor>
 void visit_planner_keys(Planner& c, Visitor& v) {
   v(Key{"planner.name", "",
-        "Planning method (vfh+: Ulrich and Borenstein 1998; vfh: Borenstein and Koren 1991, without the vehicle's "
-        "size)"},
+        "Planning method (vfh+: Ulrich and Borenstein 1998; vfh*: 2000, which looks ahead; vfh: Borenstein and "
+        "Koren "
+        "1991, without the vehicle's size)"},
     c.name, Names{kPlannerNames});
   v(Key{"planner.active_radius_m", "m", "Obstacles farther from the turning centre than this are ignored (r_a)"},
     c.active_radius_m, Range{0.5, 100});
@@ -243,6 +245,9 @@ void visit_planner_keys(Planner& c, Visitor& v) {
     c.cost_target, Range{0, 100});
   v(Key{"planner.cost_heading", "", "Cost of leaving the present heading (mu2)"}, c.cost_heading, Range{0, 100});
   v(Key{"planner.cost_previous", "", "Cost of leaving the previous choice (mu3)"}, c.cost_previous, Range{0, 100});
+  v(Key{"planner.commitment_deg", "deg",
+        "vfh+, vfh*: by how much nearer to the target another direction must be than the previous choice"},
+    c.commitment_deg, Range{0, 90});
   v(Key{"planner.turning_radius_m", "m", "Radius of the smallest turning circle; 0: the vehicle turns in place"},
     c.turning_radius_m, Range{0, 20});
   v(Key{"planner.blind_zone_m", "m",
@@ -253,6 +258,9 @@ void visit_planner_keys(Planner& c, Visitor& v) {
     c.unknown, Names{kUnknownNames});
   v(Key{"planner.unknown_speed_mps", "m/s", "Creeping speed towards unknown cells, used by unknown: slow"},
     c.unknown_speed_mps, Range{0, 5});
+  v(Key{"planner.star_step_m", "m", "vfh*: length of one step of the look-ahead"}, c.star_step_m, Range{0.1, 10});
+  v(Key{"planner.star_depth", "steps", "vfh*: how many steps it looks ahead"}, c.star_depth,
+    Range{1, kStarMaxDepth});
   v(Key{"planner.vfh_smoothing", "sectors",
         "vfh: neighbours to either side that a sector's density is smoothed with (l); 0: none"},
     c.vfh_smoothing, Range{0, kMaxSmoothing});

@@ -64,8 +64,11 @@ bool Perception::step(PlanNote& plan) {
   const RawPair& raw = exchange_->raw.reading();
   (void)exchange_->nav.take();
   const NavNote& nav = exchange_->nav.reading();
-  plan = {.number = raw.number, .taken = raw.taken, .arrived = raw.arrived, .started = clock_->now()};
-  plan.pose = nav.history.at_time(raw.taken);
+  plan = {.number = raw.number,
+          .taken = raw.taken,
+          .arrived = raw.arrived,
+          .started = clock_->now(),
+          .pose = nav.history.at_time(raw.taken)};
   plan.target = wrapped_angle(nav.target + nav.pose.yaw - plan.pose.yaw);
   exchange_->looked_at.store(raw.number, std::memory_order_release);
   exchange_->working_since.store(plan.started, std::memory_order_release);

@@ -87,16 +87,24 @@ RayView look_along(ImageView<const std::uint8_t> type, const GridGeometry& geome
   const double cell_m = cell_metres(geometry);
   const double blind_cells = blind_zone_m / cell_m + 1 + kRounding;
   bool known = false;
+  double gap = -1;  // where the unknown cells begin that the ray is passing over
   for (int half_cells = 1;; ++half_cells) {
     const double length = half_cells / 2.0;
+    const bool blind = length <= blind_cells;
     const Meets there = ray.at(length);
-    if (there == Meets::free && (known || length <= blind_cells)) {
+    if (there == Meets::free && (blind || (known && gap < 0))) {
       known = true;
+      gap = -1;
       continue;
     }
-    if (there == Meets::unknown && !known && length <= blind_cells) continue;
-    if (!known && (there != Meets::obstacle || length > blind_cells)) return {};
-    return {true, ray.entry(length) * cell_m, there == Meets::obstacle ? ClearEnd::obstacle : ClearEnd::unknown};
+    if (there == Meets::unknown && blind) {
+      if (gap < 0) gap = ray.entry(length) * cell_m;
+      continue;
+    }
+    const bool is_obstacle = there == Meets::obstacle;
+    if (!known && (!is_obstacle || !blind)) return {};
+    if (gap >= 0 && !(is_obstacle && blind)) return {true, gap, ClearEnd::unknown};
+    return {true, ray.entry(length) * cell_m, is_obstacle ? ClearEnd::obstacle : ClearEnd::unknown};
   }
 }
 

@@ -19,8 +19,8 @@ enum class ClearEnd : std::uint8_t { obstacle, unknown };
 
 struct RayView {
   bool seen = false;   // the first known cell comes within the blind zone (plus one cell)
-  double clear_m = 0;  // to the first cell that is not free; unknown cells before the first known one are passed
-                       // over inside the blind zone (plus one cell). 0 when not seen
+  double clear_m = 0;  // to the first cell that is not free; inside the blind zone (plus one cell) unknown cells are passed over
+                       // when a known one follows there. 0 when not seen
   ClearEnd end = ClearEnd::unknown;  // what is there; the end of the grid is unknown
 };
 

@@ -6,18 +6,22 @@
 namespace lakshya {
 
 struct PlannerParams {
-  std::string name = "vfh+";       // vfh+ | vfh
-  double active_radius_m = 5.0;    // r_a: obstacles farther than this do not enter the histogram
-  int threshold_low = 80;          // histogram value below which a blocked sector becomes free
-  int threshold_high = 120;        // ... above which a free sector becomes blocked (1000 = a cell at distance 0)
-  int wide_opening_sectors = 16;   // s_max
-  double cost_target = 5.0;        // mu1
-  double cost_heading = 2.0;       // mu2
-  double cost_previous = 2.0;      // mu3; mu1 > mu2 + mu3
+  std::string name = "vfh+";      // vfh+ | vfh* | vfh
+  double active_radius_m = 5.0;   // r_a: obstacles farther than this do not enter the histogram
+  int threshold_low = 80;         // histogram value below which a blocked sector becomes free
+  int threshold_high = 120;       // ... above which a free sector becomes blocked (1000 = a cell at distance 0)
+  int wide_opening_sectors = 16;  // s_max
+  double cost_target = 5.0;       // mu1
+  double cost_heading = 2.0;      // mu2
+  double cost_previous = 2.0;     // mu3; mu1 > mu2 + mu3
+  double commitment_deg =
+      10.0;  // by how much nearer to the target another direction must be than the previous choice
   double turning_radius_m = 0.0;   // smallest turning circle; 0: turns in place
   double blind_zone_m = 1.5;       // unknown cells nearer than this do not stop the vehicle
   std::string unknown = "stop";    // stop | slow: what an unknown cell ahead does
   double unknown_speed_mps = 0.2;  // slow: creeping speed towards unknown cells
+  double star_step_m = 0.6;        // of the look-ahead of vfh*
+  int star_depth = 5;              // steps
   int vfh_smoothing = 5;           // l
   int vfh_threshold = 250;         // smoothed density above which a sector is no valley
   int vfh_stop_density = 10'000;   // h_m: smoothed density ahead at which the speed is 0

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "app/nav/sectors.h"
 
@@ -16,7 +17,7 @@ bool millimetres(double metres, std::int32_t& mm) {
 
 bool finite(const PlanInput& input) {
   return std::isfinite(input.target) && std::isfinite(input.heading) && std::isfinite(input.heading_change) &&
-         std::isfinite(input.previous.value_or(0));
+         std::isfinite(input.previous.value_or(0)) && input.target_distance_m >= 0;
 }
 
 GovernorParams governor_of(const VehicleParams& v) {
@@ -31,16 +32,23 @@ DirectionCosts costs_of(const PlannerParams& p) {
   return {.target = p.cost_target,
           .heading = p.cost_heading,
           .previous = p.cost_previous,
-          .wide_opening_sectors = p.wide_opening_sectors};
+          .wide_opening_sectors = p.wide_opening_sectors,
+          .commitment = radians(p.commitment_deg)};
 }
 
 bool is_vfh(const PlannerParams& p) {
   return p.name == "vfh";
 }
 
+bool is_star(const PlannerParams& p) {
+  return p.name == "vfh*";
+}
+
 bool usable(const PlannerParams& p) {
-  return (p.name == "vfh+" || is_vfh(p)) && (p.unknown == "stop" || p.unknown == "slow") && p.vfh_smoothing >= 0 &&
-         p.vfh_smoothing <= kMaxSmoothing && p.vfh_stop_density > 0;
+  return p.commitment_deg >= 0 && p.star_step_m > 0 && std::isfinite(p.star_step_m) && p.star_depth >= 1 &&
+         p.star_depth <= kStarMaxDepth && (p.name == "vfh+" || is_star(p) || is_vfh(p)) &&
+         (p.unknown == "stop" || p.unknown == "slow") && p.vfh_smoothing >= 0 && p.vfh_smoothing <= kMaxSmoothing &&
+         p.vfh_stop_density > 0;
 }
 
 }  // namespace
@@ -77,6 +85,7 @@ Status Planner::configure(const PlannerParams& params, const VehicleParams& vehi
   governor_ = governor_of(vehicle);
   creep_ = params.unknown == "slow";
   is_vfh_ = is_vfh(params);
+  is_star_ = is_star(params);
   return Status::ok;
 }
 
@@ -93,19 +102,19 @@ Status Planner::plan(ImageView<const std::uint8_t> type, const PlanInput& input,
   choose_sectors(type, next);
   next.openings = find_openings(next.selectable, next.masked);
 
-  if (const std::optional<double> chosen = choose(input, next)) {
+  if (const std::optional<double> chosen = choose(type, input, next)) {
     next.blocked = false;
     next.direction = *chosen;
     const ClearDistance clear =
         clear_distance(type, geometry_, next.direction, params_.blind_zone_m, vehicle_.radius_m);
     next.clear_distance_m = clear.metres;
     next.clear_end = clear.end;
-    next.speed_mps = speed_towards(next.direction, std::min(speed_along(type, next), speed_limit(input, next)));
+    const double speed_mps = std::min(speed_along(type, next), speed_limit(input, next));
+    next.speed_mps = speed_towards(next.direction, std::min(speed_mps, speed_while_turning(type, next.direction)));
     next.turn_rate_rps = turn_rate(next.direction, vehicle_.steering_gain, radians(vehicle_.max_turn_rate_dps));
     next.wheels = wheel_speeds(next.speed_mps, next.turn_rate_rps, vehicle_.track_m);
-  } else {
-    next.recovery = more_open_side(next.binary, next.seen, next.histogram);
   }
+  recover(input.heading_change, state, next);
   plan = next;
   return Status::ok;
 }
@@ -122,10 +131,45 @@ void Planner::block_sectors(double heading_change, PlanState& state, Plan& plan)
   plan.binary = state.binary.blocked;
 }
 
-std::optional<double> Planner::choose(const PlanInput& input, const Plan& plan) const {
+void Planner::recover(double heading_change, PlanState& state, Plan& plan) const {
+  Recovery& recovery = state.recovery;
+  if (!plan.blocked) {
+    if (recovery.active && ++recovery.open_for > Recovery::kRemembered) recovery = {};
+    return;
+  }
+  if (!recovery.active) {
+    recovery = {.active = true, .side = more_open_side(plan.binary, plan.seen, plan.histogram)};
+  } else if (recovery.open_for == 0) {
+    recovery.turned += std::abs(heading_change);
+  }
+  recovery.open_for = 0;
+  plan.recovery = recovery.side;
+  plan.hemmed_in = recovery.turned > 2 * std::numbers::pi;
+}
+
+std::optional<double> Planner::choose(ImageView<const std::uint8_t> type, const PlanInput& input,
+                                      const Plan& plan) const {
   if (is_vfh_) return choose_in_valley(plan.openings, plan.selectable, input.target, params_.wide_opening_sectors);
   const Wishes wishes{.target = input.target, .heading = input.heading, .previous = input.previous};
-  return choose_direction(plan.openings, plan.selectable, wishes, costs_of(params_));
+  if (!is_star_) return choose_direction(plan.openings, plan.selectable, wishes, costs_of(params_));
+  const StarParams star{.step_m = params_.star_step_m,
+                        .depth = params_.star_depth,
+                        .clearance_m = vehicle_.radius_m + vehicle_.safety_distance_m / 2,
+                        .active_radius_m = params_.active_radius_m,
+                        .threshold = params_.threshold_high};
+  return choose_by_look_ahead({type, geometry_, table_}, plan.openings, plan.selectable, wishes,
+                              input.target_distance_m, costs_of(params_), star);
+}
+
+// A vehicle that is still turning towards its direction sweeps what lies between: it goes no faster than straight ahead and half
+// way allow. One that cannot turn on the spot has its turning circles masked, and would get stuck by this.
+double Planner::speed_while_turning(ImageView<const std::uint8_t> type, double direction) const {
+  if (params_.turning_radius_m > 0) return vehicle_.max_speed_mps;
+  double least = vehicle_.max_speed_mps;
+  for (const double swept : {0.0, direction / 2})
+    least =
+        std::min(least, governed_speed(corridor_obstacle_m(type, geometry_, swept, vehicle_.radius_m), governor_));
+  return least;
 }
 
 double Planner::speed_limit(const PlanInput& input, const Plan& plan) const {

@@ -1,5 +1,5 @@
 // From a navigation map to a command, one frame at a time: docs/contract.md section 5.
-// VFH+ or VFH (PlannerParams::name) chooses a direction, the clear distance along it limits the speed, steering turns
+// VFH+, VFH* or VFH (PlannerParams::name) chooses a direction, the clear distance along it limits the speed, steering turns
 // both into wheel speeds. VFH differs in the histogram, the choice within the openings and one more limit of the
 // speed (vfh.h); it has no hysteresis and looks at neither heading (but for the speed) nor previous choice. What is
 // said here about unseen and unknown cells, the turning circles and the governor holds for both.
@@ -15,6 +15,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -25,6 +26,7 @@
 #include "app/nav/steering.h"
 #include "app/nav/vfh.h"
 #include "app/nav/vfh_plus.h"
+#include "app/nav/vfh_star.h"
 #include "kernels/base/image_view.h"
 #include "kernels/base/nav_grid.h"
 #include "kernels/base/status.h"
@@ -34,6 +36,7 @@ namespace lakshya {
 
 struct PlanInput {
   double target = 0;
+  double target_distance_m = std::numeric_limits<double>::infinity();  // vfh*: it looks no farther ahead
   double heading = 0;  // direction of motion now: 0 unless the wheels point elsewhere
   std::optional<double> previous =
       std::nullopt;           // what the last plan chose, seen from the vehicle as it stands now
@@ -43,9 +46,21 @@ struct PlanInput {
   std::optional<MapPose> pose = std::nullopt;
 };
 
-// What one frame of VFH+ leaves to the next. A new one starts free.
+// A vehicle that is hemmed in turns to one side until a direction opens, and to the same side if that closes again soon: which
+// side looks more open may change from frame to frame.
+struct Recovery {
+  static constexpr int kRemembered = 20;  // plans with a direction after which the side is chosen anew
+
+  bool active = false;
+  Side side = Side::left;
+  double turned = 0;  // rad, without direction
+  int open_for = 0;   // plans with one
+};
+
+// What one frame leaves to the next. A new one starts free.
 struct PlanState {
-  BinaryHistogram binary;
+  BinaryHistogram binary;  // of VFH+ and VFH*
+  Recovery recovery;
 };
 
 struct Plan {
@@ -58,6 +73,7 @@ struct Plan {
 
   bool blocked = true;  // no candidate: everything below is zero, and `recovery` says where to turn on the spot
   Side recovery = Side::left;
+  bool hemmed_in = false;  // blocked, and a full turn has found nothing: better stand still
   double direction = 0;
   double clear_distance_m = 0;
   ClearEnd clear_end = ClearEnd::unknown;
@@ -78,8 +94,9 @@ Thresholds histogram_thresholds(const PlannerParams& params);
 class Planner {
  public:
   // Keeps `table`, polar_table_entries(geometry) entries of the caller's, and fills it. bad_argument: a geometry or
-  // radius outside the limits of polar_histogram.h, a name other than "vfh+" and "vfh", an `unknown` other than "stop"
-  // and "slow", a vfh_smoothing or vfh_stop_density outside the limits of vfh.h. Call again for other parameters. The
+  // radius outside the limits of polar_histogram.h, a name other than "vfh+", "vfh*" and "vfh", an `unknown` other than "stop"
+  // and "slow", a vfh_smoothing or vfh_stop_density outside the limits of vfh.h, a star_step_m or star_depth
+  // outside those of vfh_star.h. Call again for other parameters. The
   // only function here that allocates (the names' copies). `sum` is the implementation of the histogram to use.
   Status configure(const PlannerParams& params, const VehicleParams& vehicle, const GridGeometry& geometry,
                    std::span<PolarEntry> table, decltype(&polar_histogram_ref) sum = polar_histogram_simd);
@@ -91,8 +108,10 @@ class Planner {
  private:
   void block_sectors(double heading_change, PlanState& state, Plan& plan) const;
   void choose_sectors(ImageView<const std::uint8_t> type, Plan& plan) const;
-  std::optional<double> choose(const PlanInput& input, const Plan& plan) const;
+  std::optional<double> choose(ImageView<const std::uint8_t> type, const PlanInput& input, const Plan& plan) const;
   double speed_limit(const PlanInput& input, const Plan& plan) const;
+  double speed_while_turning(ImageView<const std::uint8_t> type, double direction) const;
+  void recover(double heading_change, PlanState& state, Plan& plan) const;
   double speed_along(ImageView<const std::uint8_t> type, const Plan& plan) const;
 
   PlannerParams params_;
@@ -105,6 +124,7 @@ class Planner {
   GovernorParams governor_;
   bool creep_ = false;
   bool is_vfh_ = false;
+  bool is_star_ = false;
 };
 
 }  // namespace lakshya

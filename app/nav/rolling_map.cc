@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kMostCells = 1e8;
 constexpr double kNanosecond = 1e-9;
+constexpr std::uint8_t kFree = 1;  // evidence
 
 std::int64_t cell_of(double cells) {
   return static_cast<std::int64_t>(std::floor(cells));
@@ -35,6 +36,15 @@ bool usable(const RollingMapParams& p) {
          std::abs(p.camera.angle) <= 1.5;
 }
 
+// A length in cells and 2^-32 of one, so that a step along a row is one addition.
+constexpr int kFraction = 32;
+std::int64_t fixed(double cells) {
+  return std::llround(cells * 0x1p32);
+}
+double cells_of(std::int64_t length) {
+  return static_cast<double>(length) * 0x1p-32;
+}
+
 // Whole numbers i with 0 <= at + i * step < end, one too many at either side.
 struct Range {
   double begin = -std::numeric_limits<double>::infinity();
@@ -53,12 +63,6 @@ struct Range {
 };
 
 }  // namespace
-
-double UpperEdge::height_at(double forward, double left) const {
-  const double ahead = (forward - forward_m) * std::cos(yaw) + (left - left_m) * std::sin(yaw);
-  if (ahead <= 0) return -std::numeric_limits<double>::infinity();
-  return height_m + ahead * std::tan(angle);
-}
 
 int rolling_map_side(const GridGeometry& geometry, double size_m) {
   if (geometry.cell_mm <= 0) return 0;
@@ -96,22 +100,24 @@ Status RollingMap::configure(const RollingMapParams& params, const GridGeometry&
   const int side = rolling_map_side(geometry, params.size_m);
   if (side == 0 || geometry.rows <= 0 || geometry.cols <= 0 || !usable(params)) return Status::bad_argument;
   const std::size_t cells = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-  if (memory.hits.size() != cells || memory.frees.size() != cells || memory.height.size() != cells ||
-      memory.seen.size() != cells)
+  if (memory.evidence.size() != cells || memory.height.size() != cells || memory.seen.size() != cells)
     return Status::size_mismatch;
   params_ = params;
   geometry_ = geometry;
   memory_ = memory;
   side_ = side;
   cell_m_ = geometry.cell_mm / 1000.0;
+  const UpperEdge& camera = params.camera;
+  edge_forward_ = std::cos(camera.yaw) * std::tan(camera.angle);
+  edge_left_ = std::sin(camera.yaw) * std::tan(camera.angle);
+  edge_height_ = camera.height_m - camera.forward_m * edge_forward_ - camera.left_m * edge_left_;
   keep_ = static_cast<std::uint32_t>(std::llround(params.keep_s / (kTickNs * kNanosecond)));
   reset();
   return Status::ok;
 }
 
 void RollingMap::reset() {
-  std::ranges::fill(memory_.hits, std::uint8_t{0});
-  std::ranges::fill(memory_.frees, std::uint8_t{0});
+  std::ranges::fill(memory_.evidence, std::uint8_t{0});
   std::ranges::fill(memory_.height, std::int16_t{0});
   std::ranges::fill(memory_.seen, 0U);
   started_ = false;
@@ -125,10 +131,13 @@ std::size_t RollingMap::index(std::int64_t x, std::int64_t y) const {
   return static_cast<std::size_t>(wrapped(y, side_) * side_ + wrapped(x, side_));
 }
 
-void RollingMap::forget(std::size_t i) {
-  memory_.hits[i] = 0;
-  memory_.frees[i] = 0;
-  memory_.height[i] = 0;
+void RollingMap::forget_old() {
+  if (now_ - swept_ < std::min(kSweepTicks, keep_)) return;
+  swept_ = now_;
+  std::uint8_t* evidence = memory_.evidence.data();
+  const std::uint32_t* seen = memory_.seen.data();
+  for (std::size_t i = 0; i < memory_.evidence.size(); ++i)
+    evidence[i] = now_ - seen[i] > keep_ ? std::uint8_t{0} : evidence[i];
 }
 
 // The square's corner goes to (x, y); rows and columns that come in start empty, in the place of those that leave.
@@ -145,11 +154,11 @@ void RollingMap::roll(std::int64_t x, std::int64_t y) {
   const Run rows = entering(y, up);
   for (std::int64_t v = rows.begin; v < rows.end; ++v) {
     for (std::int64_t u = x; u < x + side_; ++u)
-      forget(index(u, v));
+      memory_.evidence[index(u, v)] = 0;
   }
   for (std::int64_t u = columns.begin; u < columns.end; ++u) {
     for (std::int64_t v = y; v < y + side_; ++v)
-      forget(index(u, v));
+      memory_.evidence[index(u, v)] = 0;
   }
 }
 
@@ -169,64 +178,72 @@ RollingMap::Run RollingMap::run_of(const Sight& sight, std::int64_t y) const {
   return run;
 }
 
-// Calls visit(index, row, column) for the world cells whose centres lie in the frame's grid.
+// Calls visit(index, row, column) for the world cells whose centres lie in the frame's grid; row and column in kFraction.
 template <class Visit>
 void RollingMap::visit_below(const Sight& sight, Visit&& visit) const {
-  const double rows = geometry_.rows;
-  const double cols = geometry_.cols;
+  const auto rows = static_cast<std::uint64_t>(geometry_.rows) << kFraction;
+  const auto cols = static_cast<std::uint64_t>(geometry_.cols) << kFraction;
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
-  for (const double row : {0.0, rows}) {
-    for (const double column : {0.0, cols}) {
+  for (const double row : {0.0, static_cast<double>(geometry_.rows)}) {
+    for (const double column : {0.0, static_cast<double>(geometry_.cols)}) {
       low = std::min(low, sight.y(row, column));
       high = std::max(high, sight.y(row, column));
     }
   }
   const std::int64_t begin = std::max(y_begin_, cell_of(low) - 1);
   const std::int64_t end = std::min(y_begin_ + side_, cell_of(high) + 2);
+  const std::int64_t row_step = fixed(sight.cos);
+  const std::int64_t column_step = fixed(sight.sin);
   for (std::int64_t y = begin; y < end; ++y) {
     const Run run = run_of(sight, y);
-    if (run.begin >= run.end) continue;
     const std::size_t line = static_cast<std::size_t>(wrapped(y, side_) * side_);
-    std::int64_t x = wrapped(run.begin, side_);
-    for (std::int64_t i = 0; i < run.end - run.begin; ++i, x = x + 1 == side_ ? 0 : x + 1) {
-      const double row = run.row + static_cast<double>(i) * sight.cos;
-      const double column = run.column + static_cast<double>(i) * sight.sin;
-      if (row < 0 || column < 0 || row >= rows || column >= cols) continue;
-      visit(line + static_cast<std::size_t>(x), row, column);
+    const std::size_t line_end = line + static_cast<std::size_t>(side_);
+    std::size_t i = line + static_cast<std::size_t>(wrapped(run.begin, side_));
+    std::int64_t row = fixed(run.row);
+    std::int64_t column = fixed(run.column);
+    for (std::int64_t x = run.begin; x < run.end; ++x) {
+      // What is negative is very large.
+      if (static_cast<std::uint64_t>(row) < rows && static_cast<std::uint64_t>(column) < cols)
+        visit(i, row, column);
+      row += row_step;
+      column += column_step;
+      if (++i == line_end) i = line;
     }
   }
 }
 
 int RollingMap::weight(double forward, double left, int near, int far) const {
-  const double distance = std::hypot(forward, left);
-  if (distance <= near_m_) return near;
-  return std::max(far, static_cast<int>(near * near_m_ / distance));
+  const double squared = forward * forward + left * left;
+  if (squared <= near_m_ * near_m_) return near;
+  return std::max(far, static_cast<int>(near * near_m_ / std::sqrt(squared)));
+}
+
+bool RollingMap::sees_height(std::size_t i, double forward, double left) const {
+  const double edge_m = edge_height_ + edge_forward_ * forward + edge_left_ * left;
+  return edge_m >= memory_.height[i] / 1000.0 + kEdgeMarginM;
 }
 
 void RollingMap::see_free(std::size_t i, double forward, double left) {
-  if (memory_.hits[i] > 0) {
-    if (is_stale(i)) {
-      forget(i);
-    } else {
-      const double height_m = memory_.height[i] / 1000.0;
-      if (params_.camera.height_at(forward, left) < height_m + kEdgeMarginM) return;
-      const int left_over = memory_.hits[i] - weight(forward, left, kCleared, kClearedFar);
-      memory_.hits[i] = static_cast<std::uint8_t>(std::max(0, left_over));
-      if (left_over <= 0) memory_.height[i] = 0;
-    }
+  std::uint8_t& evidence = memory_.evidence[i];
+  if (evidence > kFree) {
+    if (!sees_height(i, forward, left)) return;
+    evidence =
+        static_cast<std::uint8_t>(std::max<int>(kFree, evidence - weight(forward, left, kCleared, kClearedFar)));
+  } else {
+    evidence = kFree;
   }
-  memory_.frees[i] = 1;
   memory_.seen[i] = now_;
 }
 
 void RollingMap::clear_seen_free(const NavGrid& frame, const Sight& sight) {
-  visit_below(sight, [&](std::size_t i, double row, double column) {
-    const std::uint8_t type = frame.type.at(static_cast<int>(column), static_cast<int>(row));
+  visit_below(sight, [&](std::size_t i, std::int64_t row, std::int64_t column) {
+    const std::uint8_t type =
+        frame.type.at(static_cast<int>(column >> kFraction), static_cast<int>(row >> kFraction));
     if (type == kCellUnoccupied) {
-      see_free(i, row * cell_m_, (sight.half - column) * cell_m_);
-    } else if (type == kCellObstacle) {
-      memory_.frees[i] = 0;
+      see_free(i, cells_of(row) * cell_m_, (sight.half - cells_of(column)) * cell_m_);
+    } else if (type == kCellObstacle && memory_.evidence[i] == kFree) {
+      memory_.evidence[i] = 0;
     }
   });
 }
@@ -239,11 +256,11 @@ void RollingMap::add_obstacles(const NavGrid& frame, const Sight& sight) {
       const std::int64_t y = cell_of(sight.y(r + 0.5, c + 0.5));
       if (!holds(x, y)) continue;
       const std::size_t i = index(x, y);
-      if (memory_.hits[i] > 0 && is_stale(i)) forget(i);
       const int hit = weight((r + 0.5) * cell_m_, (sight.half - c - 0.5) * cell_m_, kBelieved,
                              (kBelieved + params_.far_hits - 1) / params_.far_hits);
-      memory_.hits[i] = static_cast<std::uint8_t>(std::min(kMost, memory_.hits[i] + hit));
-      memory_.frees[i] = 0;
+      if (memory_.evidence[i] <= kFree) memory_.height[i] = 0;
+      const int before = std::max<int>(memory_.evidence[i], kFree);
+      memory_.evidence[i] = static_cast<std::uint8_t>(std::min(kFree + kMost, before + hit));
       memory_.seen[i] = now_;
       const std::uint32_t count = frame.count.at(c, r);
       if (count == 0) continue;  // a drop-off
@@ -254,7 +271,8 @@ void RollingMap::add_obstacles(const NavGrid& frame, const Sight& sight) {
 }
 
 void RollingMap::stand_here(const Sight& sight) {
-  const double radius = params_.radius_m / cell_m_;
+  const double radius = params_.radius_m / cell_m_ - kSunk;
+  if (radius < 0) return;
   const auto reach = static_cast<std::int64_t>(std::ceil(radius));
   const std::int64_t x0 = cell_of(sight.east);
   const std::int64_t y0 = cell_of(sight.north);
@@ -262,12 +280,8 @@ void RollingMap::stand_here(const Sight& sight) {
     for (std::int64_t x = x0 - reach; x <= x0 + reach; ++x) {
       const double distance =
           std::hypot(static_cast<double>(x) + 0.5 - sight.east, static_cast<double>(y) + 0.5 - sight.north);
-      if (distance > radius || !holds(x, y)) continue;
-      const std::size_t i = index(x, y);
-      if (memory_.hits[i] > 0 && (is_stale(i) || distance <= radius - kSunk)) forget(i);
-      if (memory_.hits[i] > 0) continue;
-      memory_.frees[i] = 1;
-      memory_.seen[i] = now_;
+      if (distance <= radius && holds(x, y))
+        memory_.evidence[index(x, y)] = std::min(memory_.evidence[index(x, y)], kFree);
     }
   }
 }
@@ -289,11 +303,13 @@ Status RollingMap::add(const NavGrid& frame, const MapPose& at) {
     const double way = std::hypot(at.pose.east_m - at_.pose.east_m, at.pose.north_m - at_.pose.north_m);
     speed = way / (static_cast<double>(at.time_ns - at_.time_ns) * kNanosecond);
   }
+  if (!started_) swept_ = 0;
   started_ = true;
   at_ = at;
   now_ = static_cast<std::uint32_t>(std::max<std::int64_t>(0, at.time_ns - first_ns_) / kTickNs);
   near_m_ = params_.near_m + speed * params_.latency_s + speed * speed / (2 * params_.deceleration_mps2);
   roll(x, y);
+  forget_old();
   clear_seen_free(frame, sight);
   add_obstacles(frame, sight);
   stand_here(sight);
@@ -305,34 +321,33 @@ Status RollingMap::view(ImageView<const std::uint8_t> frame, ImageView<std::uint
   if (type.height != geometry_.rows || type.width != geometry_.cols || !same_size(frame, type))
     return Status::size_mismatch;
   const Sight sight(geometry_, at_.pose, cell_m_);
-  const std::int64_t x_wrap = wrapped(x_begin_, side_);
-  const std::int64_t y_wrap = wrapped(y_begin_, side_);
-  const double x_begin = static_cast<double>(x_begin_);
-  const double y_begin = static_cast<double>(y_begin_);
+  const auto side = static_cast<std::uint64_t>(side_);
+  const auto x_wrap = static_cast<std::uint64_t>(wrapped(x_begin_, side_));
+  const auto y_wrap = static_cast<std::uint64_t>(wrapped(y_begin_, side_));
+  const std::int64_t x_step = fixed(sight.sin);
+  const std::int64_t y_step = fixed(-sight.cos);
   for (int r = 0; r < geometry_.rows; ++r) {
-    const double x0 = sight.x(r + 0.5, 0.5) - x_begin;
-    const double y0 = sight.y(r + 0.5, 0.5) - y_begin;
+    std::int64_t x = fixed(sight.x(r + 0.5, 0.5) - static_cast<double>(x_begin_));
+    std::int64_t y = fixed(sight.y(r + 0.5, 0.5) - static_cast<double>(y_begin_));
     const std::uint8_t* seen_now = frame.row(r);
     std::uint8_t* out = type.row(r);
-    for (int c = 0; c < geometry_.cols; ++c) {
-      const double x = x0 + c * sight.sin;
-      const double y = y0 - c * sight.cos;
-      if (x < 0 || y < 0 || x >= side_ || y >= side_) {
+    for (int c = 0; c < geometry_.cols; ++c, x += x_step, y += y_step) {
+      auto u = static_cast<std::uint64_t>(x) >> kFraction;  // what is negative is very large
+      auto v = static_cast<std::uint64_t>(y) >> kFraction;
+      if (u >= side || v >= side) {
         out[c] = seen_now[c];
         continue;
       }
-      std::int64_t u = static_cast<std::int64_t>(x) + x_wrap;
-      std::int64_t v = static_cast<std::int64_t>(y) + y_wrap;
-      if (u >= side_) u -= side_;
-      if (v >= side_) v -= side_;
-      const auto i = static_cast<std::size_t>(v * side_ + u);
-      const bool is_free = memory_.hits[i] == 0 && memory_.frees[i] != 0 && !is_stale(i);
-      out[c] = is_free ? kCellUnoccupied : kCellUnknown;
+      u += x_wrap;
+      v += y_wrap;
+      if (u >= side) u -= side;
+      if (v >= side) v -= side;
+      out[c] = memory_.evidence[v * side + u] == kFree ? kCellUnoccupied : kCellUnknown;
     }
   }
-  visit_below(sight, [&](std::size_t i, double row, double column) {
-    if (memory_.hits[i] >= kBelieved && !is_stale(i))
-      type.at(static_cast<int>(column), static_cast<int>(row)) = kCellObstacle;
+  visit_below(sight, [&](std::size_t i, std::int64_t row, std::int64_t column) {
+    if (memory_.evidence[i] >= kFree + kBelieved)
+      type.at(static_cast<int>(column >> kFraction), static_cast<int>(row >> kFraction)) = kCellObstacle;
   });
   return Status::ok;
 }

@@ -9,8 +9,8 @@
 // Floor seen below something does not clear it: an obstacle loses evidence only where the camera's upper edge, as far away as the
 // cell is, lies above the greatest mean height that the cell was seen with. So a bar or a table top that has left the image at
 // the top stays.
-// The ground below the vehicle is free: unknown cells within its radius become unoccupied; obstacles well within it (kSunk cells
-// from its edge) cannot be there and are forgotten, those at its edge may touch it and stay.
+// What is an obstacle below the vehicle, kSunk cells or more within its radius, cannot be there and is forgotten; what is at its edge
+// may touch it and stays. Unknown ground below it stays unknown: it says nothing about the way on.
 #pragma once
 
 #include <cstddef>
@@ -37,9 +37,6 @@ struct UpperEdge {
   double left_m = 0;
   double yaw = 0;    // positive to the left
   double angle = 0;  // of the upper edge above the horizon, pitch included; within +-1.5
-
-  // Greatest height seen above a point of the ground; none behind the camera.
-  double height_at(double forward_m, double left_m) const;
 };
 
 struct RollingMapParams {
@@ -55,10 +52,9 @@ struct RollingMapParams {
 
 // One of each for every cell, rolling_map_side() squared.
 struct RollingMapMemory {
-  std::span<std::uint8_t> hits;    // evidence of an obstacle
-  std::span<std::uint8_t> frees;   // 1: seen free
-  std::span<std::int16_t> height;  // greatest mean height of the obstacle, mm
-  std::span<std::uint32_t> seen;   // when last seen, in units of kTickNs since the first frame
+  std::span<std::uint8_t> evidence;  // 0: unknown, 1: free, 1 + n: n of an obstacle
+  std::span<std::int16_t> height;    // greatest mean height of the obstacle, mm
+  std::span<std::uint32_t> seen;     // when last seen, in units of kTickNs since the first frame
 };
 
 inline constexpr int kRollingMapMaxSide = 4096;  // cells
@@ -75,6 +71,7 @@ class RollingMap {
   static constexpr int kSunk = 2;
   static constexpr double kEdgeMarginM = 0.05;  // of the upper edge above a remembered height
   static constexpr std::int64_t kTickNs = 10'000'000;
+  static constexpr std::uint32_t kSweepTicks = 50;  // what is old is looked for so often
 
   // geometry: of the frames. bad_argument: a parameter that is not finite or out of range; size_mismatch: the memory is not of
   // rolling_map_side(). Forgets everything. Keeps the memory.
@@ -96,11 +93,11 @@ class RollingMap {
 
   bool holds(std::int64_t x, std::int64_t y) const;
   std::size_t index(std::int64_t x, std::int64_t y) const;
-  void forget(std::size_t i);
-  bool is_stale(std::size_t i) const { return now_ - memory_.seen[i] > keep_; }
+  void forget_old();
   void roll(std::int64_t x, std::int64_t y);
   void clear_seen_free(const NavGrid& frame, const Sight& sight);
   void see_free(std::size_t i, double forward, double left);
+  bool sees_height(std::size_t i, double forward, double left) const;
   void add_obstacles(const NavGrid& frame, const Sight& sight);
   void stand_here(const Sight& sight);
   Run run_of(const Sight& sight, std::int64_t y) const;
@@ -113,8 +110,10 @@ class RollingMap {
   RollingMapMemory memory_;
   int side_ = 0;
   double cell_m_ = 0.1;
-  std::uint32_t keep_ = 0;  // ticks
-  double rise_ = 0;         // of the upper edge, per metre
+  std::uint32_t keep_ = 0;   // ticks
+  double edge_forward_ = 0;  // how the height of the upper edge changes per metre ahead and to the left
+  double edge_left_ = 0;
+  double edge_height_ = 0;  // above the turning centre
 
   bool started_ = false;
   std::int64_t first_ns_ = 0;
@@ -122,7 +121,8 @@ class RollingMap {
   std::int64_t x_begin_ = 0;  // world cells of the square's corner
   std::int64_t y_begin_ = 0;
   std::uint32_t now_ = 0;
-  double near_m_ = 0;  // within which one frame is enough, now
+  std::uint32_t swept_ = 0;  // when what is old was last forgotten
+  double near_m_ = 0;        // within which one frame is enough, now
 };
 
 }  // namespace lakshya

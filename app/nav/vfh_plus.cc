@@ -31,7 +31,7 @@ class Cheapest {
 
   void offer(double direction) {
     const double candidate = wrap_angle(direction);
-    const double cost = cost_of(candidate);
+    const double cost = direction_cost(candidate, wishes_, costs_);
     if (best_ && !better(candidate, cost)) return;
     best_ = candidate;
     best_cost_ = cost;
@@ -40,12 +40,6 @@ class Cheapest {
   std::optional<double> best() const { return best_; }
 
  private:
-  double cost_of(double c) const {
-    const double cost =
-        costs_.target * angle_between(c, wishes_.target) + costs_.heading * angle_between(c, wishes_.heading);
-    return wishes_.previous ? cost + costs_.previous * angle_between(c, *wishes_.previous) : cost;
-  }
-
   bool better(double candidate, double cost) const {
     const double cost_gain = best_cost_ - cost;
     if (std::abs(cost_gain) > kAngleTolerance) return cost_gain > 0;
@@ -59,14 +53,6 @@ class Cheapest {
   std::optional<double> best_;
   double best_cost_ = 0;
 };
-
-void offer_candidates(const Opening& opening, const SectorMask& selectable, const Wishes& wishes,
-                      const DirectionCosts& costs, Cheapest& cheapest) {
-  const Interval between = between_offsets(opening, costs.wide_opening_sectors);
-  cheapest.offer(between.middle - between.right);
-  cheapest.offer(between.middle + between.left);
-  if (const auto target = target_in(opening, between, selectable, wishes.target)) cheapest.offer(*target);
-}
 
 struct SideView {
   int free = 0;
@@ -163,11 +149,31 @@ std::optional<double> target_in(const Opening& opening, const Interval& between,
   return between.middle + std::clamp(wrap_angle(target - between.middle), -half, half);
 }
 
+Candidates candidates_of(const Opening& opening, const SectorMask& selectable, double target,
+                         const DirectionCosts& costs) {
+  const Interval between = between_offsets(opening, costs.wide_opening_sectors);
+  Candidates found{{wrap_angle(between.middle - between.right), wrap_angle(between.middle + between.left)}, 2};
+  if (const auto inside = target_in(opening, between, selectable, target))
+    found.items[static_cast<std::size_t>(found.count++)] = wrap_angle(*inside);
+  return found;
+}
+
+double direction_cost(double c, const Wishes& wishes, const DirectionCosts& costs) {
+  const double cost =
+      costs.target * angle_between(c, wishes.target) + costs.heading * angle_between(c, wishes.heading);
+  if (!wishes.previous) return cost;
+  const double change = angle_between(c, *wishes.previous);
+  return cost + costs.previous * change - (change <= kSameDirection ? costs.target * costs.commitment : 0);
+}
+
 std::optional<double> choose_direction(const Openings& openings, const SectorMask& selectable, const Wishes& wishes,
                                        const DirectionCosts& costs) {
   Cheapest cheapest(wishes, costs);
-  for (const Opening& opening : openings.view())
-    offer_candidates(opening, selectable, wishes, costs, cheapest);
+  for (const Opening& opening : openings.view()) {
+    const Candidates candidates = candidates_of(opening, selectable, wishes.target, costs);
+    for (const double candidate : candidates.view())
+      cheapest.offer(candidate);
+  }
   return cheapest.best();
 }
 

@@ -96,14 +96,30 @@ struct DirectionCosts {
   double heading = 2;             // mu2
   double previous = 2;            // mu3
   int wide_opening_sectors = 16;  // s_max
+  double commitment =
+      0;  // rad by which another candidate must be nearer to the target than one of the same direction as
+          // the previous choice, which is within kSameDirection of it
 };
+
+inline constexpr double kSameDirection = radians(15);
+
+// mu1 |c - target| + mu2 |c - heading| + mu3 |c - previous|, smallest differences, and the commitment's bonus.
+double direction_cost(double candidate, const Wishes& wishes, const DirectionCosts& costs);
+
+// What an opening offers: the two ends of between_offsets(), as in VFH+, and target_in().
+struct Candidates {
+  std::array<double, 3> items{};
+  int count = 0;
+
+  std::span<const double> view() const { return {items.data(), static_cast<std::size_t>(count)}; }
+};
+Candidates candidates_of(const Opening& opening, const SectorMask& selectable, double target,
+                         const DirectionCosts& costs);
 
 // The cheapest candidate of all openings, in [-pi, pi]; none without an opening.
 //
-// Candidates are the two ends of between_offsets(), as in VFH+, and target_in(). Between two obstacles a narrow
-// opening so gives its centre, a wide one s_max / 2 from each side.
-// Cost: mu1 |c - target| + mu2 |c - heading| + mu3 |c - previous|, smallest differences. Equal costs: the
-// candidate nearer the target, then the one on the left.
+// Between two obstacles a narrow opening gives its centre, a wide one s_max / 2 from each side. Equal costs: the candidate nearer
+// the target, then the one on the left.
 std::optional<double> choose_direction(const Openings& openings, const SectorMask& selectable, const Wishes& wishes,
                                        const DirectionCosts& costs);
 

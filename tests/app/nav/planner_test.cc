@@ -257,7 +257,7 @@ TEST(Planner, Refusals) {
   Plan plan;
   EXPECT_EQ(trial.planner.plan(trial.type.view(), {}, trial.state, plan), Status::size_mismatch);  // not configured
 
-  trial.params.name = "vfh*";
+  trial.params.name = "vfh**";
   EXPECT_EQ(configure(), Status::bad_argument);
   trial.params.name = "vfh+";
   trial.params.unknown = "ignore";
