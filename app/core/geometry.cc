@@ -31,6 +31,7 @@ RollingMapParams rolling_map_params(const VehicleConfig& config, const Rectified
   RollingMapParams p;
   p.size_m = config.map.size_m;
   p.keep_s = config.map.keep_s;
+  p.blind_m = blind_zone_m(config, camera);
   p.near_m = config.map.near_m;
   p.far_hits = config.map.far_hits;
   p.latency_s = config.vehicle.latency_s;

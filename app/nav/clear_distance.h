@@ -18,9 +18,10 @@ namespace lakshya {
 enum class ClearEnd : std::uint8_t { obstacle, unknown };
 
 struct RayView {
-  bool seen = false;   // the first known cell comes within the blind zone (plus one cell)
-  double clear_m = 0;  // to the first cell that is not free; inside the blind zone (plus one cell) unknown cells are passed over
-                       // when a known one follows there. 0 when not seen
+  bool seen = false;  // the first known cell comes within the blind zone (plus one cell)
+  double clear_m =
+      0;  // to the first cell that is not free; inside the blind zone (plus one cell) unknown cells are passed over
+          // when a known one follows there. 0 when not seen
   ClearEnd end = ClearEnd::unknown;  // what is there; the end of the grid is unknown
 };
 

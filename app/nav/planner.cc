@@ -102,14 +102,17 @@ Status Planner::plan(ImageView<const std::uint8_t> type, const PlanInput& input,
   choose_sectors(type, next);
   next.openings = find_openings(next.selectable, next.masked);
 
-  if (const std::optional<double> chosen = choose(type, input, next)) {
+  std::optional<double> chosen = choose(type, input, next);
+  if (!chosen && !is_vfh_) chosen = squeeze(type, input, next);
+  if (chosen) {
     next.blocked = false;
     next.direction = *chosen;
     const ClearDistance clear =
         clear_distance(type, geometry_, next.direction, params_.blind_zone_m, vehicle_.radius_m);
     next.clear_distance_m = clear.metres;
     next.clear_end = clear.end;
-    const double speed_mps = std::min(speed_along(type, next), speed_limit(input, next));
+    double speed_mps = std::min(speed_along(type, next), speed_limit(input, next));
+    if (next.squeezes) speed_mps = std::min(speed_mps, params_.unknown_speed_mps);
     next.speed_mps = speed_towards(next.direction, std::min(speed_mps, speed_while_turning(type, next.direction)));
     next.turn_rate_rps = turn_rate(next.direction, vehicle_.steering_gain, radians(vehicle_.max_turn_rate_dps));
     next.wheels = wheel_speeds(next.speed_mps, next.turn_rate_rps, vehicle_.track_m);
@@ -129,6 +132,26 @@ void Planner::block_sectors(double heading_change, PlanState& state, Plan& plan)
   turn_with_vehicle(state.binary, heading_change);
   state.binary.blocked = binary_histogram(plan.histogram, state.binary.blocked, thresholds.low, thresholds.high);
   plan.binary = state.binary.blocked;
+}
+
+std::optional<double> Planner::squeeze(ImageView<const std::uint8_t> type, const PlanInput& input,
+                                       Plan& plan) const {
+  StarCells cells;
+  find_star_cells(type, geometry_, params_.active_radius_m, cells);
+  Plan narrow = plan;
+  narrow.histogram =
+      star_histogram(cells, geometry_, params_.active_radius_m, vehicle_.radius_m + vehicle_.safety_distance_m / 2);
+  narrow.binary = binary_histogram(narrow.histogram, {}, params_.threshold_high, params_.threshold_high);
+  narrow.masked = mask_turning_circles(narrow.binary, type, geometry_, circles_);
+  choose_sectors(type, narrow);
+  narrow.openings = find_openings(narrow.selectable, narrow.masked);
+  const Wishes wishes{.target = input.target, .heading = input.heading, .previous = input.previous};
+  const std::optional<double> chosen =
+      choose_direction(narrow.openings, narrow.selectable, wishes, costs_of(params_));
+  if (!chosen) return std::nullopt;
+  plan = narrow;
+  plan.squeezes = true;
+  return chosen;
 }
 
 void Planner::recover(double heading_change, PlanState& state, Plan& plan) const {

@@ -7,6 +7,9 @@
 // Directions are radians counter-clockwise from straight ahead. Distances are from the turning centre, so that the
 // vehicle's radius is added to its stop_margin_m.
 //
+// Where nothing is open VFH+ and VFH* look once more with half of the safety distance, and creep there (unknown_speed_mps): the map's
+// cells make a gap up to a cell and a half narrower than it is, and a vehicle that has come into a narrow place must get out.
+//
 // Unknown cells (PlannerParams::unknown). Either way a sector is selectable only when it is seen, is not blocked
 // and has a clear distance above 0 on its centre ray.
 //  stop: the clear distance ends at the first unknown cell beyond the blind zone, as at an obstacle.
@@ -73,6 +76,7 @@ struct Plan {
 
   bool blocked = true;  // no candidate: everything below is zero, and `recovery` says where to turn on the spot
   Side recovery = Side::left;
+  bool squeezes = false;   // nothing is open but with half of the safety distance: creeping
   bool hemmed_in = false;  // blocked, and a full turn has found nothing: better stand still
   double direction = 0;
   double clear_distance_m = 0;
@@ -111,6 +115,7 @@ class Planner {
   std::optional<double> choose(ImageView<const std::uint8_t> type, const PlanInput& input, const Plan& plan) const;
   double speed_limit(const PlanInput& input, const Plan& plan) const;
   double speed_while_turning(ImageView<const std::uint8_t> type, double direction) const;
+  std::optional<double> squeeze(ImageView<const std::uint8_t> type, const PlanInput& input, Plan& plan) const;
   void recover(double heading_change, PlanState& state, Plan& plan) const;
   double speed_along(ImageView<const std::uint8_t> type, const Plan& plan) const;
 

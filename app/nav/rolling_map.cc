@@ -29,8 +29,8 @@ bool finite(const MapPose& at, double cell_m) {
 
 bool usable(const RollingMapParams& p) {
   const auto in = [](double value, double most) { return value >= 0 && value <= most; };
-  return in(p.keep_s, 1e6) && in(p.near_m, 1e3) && in(p.latency_s, 1e3) && p.deceleration_mps2 > 0 &&
-         std::isfinite(p.deceleration_mps2) && in(p.radius_m, 1e2) && p.far_hits >= 1 &&
+  return in(p.keep_s, 1e6) && in(p.blind_m, 1e2) && in(p.near_m, 1e3) && in(p.latency_s, 1e3) &&
+         p.deceleration_mps2 > 0 && std::isfinite(p.deceleration_mps2) && in(p.radius_m, 1e2) && p.far_hits >= 1 &&
          p.far_hits <= RollingMap::kBelieved && std::isfinite(p.camera.height_m) &&
          std::isfinite(p.camera.forward_m) && std::isfinite(p.camera.left_m) && std::isfinite(p.camera.yaw) &&
          std::abs(p.camera.angle) <= 1.5;
@@ -272,16 +272,19 @@ void RollingMap::add_obstacles(const NavGrid& frame, const Sight& sight) {
 
 void RollingMap::stand_here(const Sight& sight) {
   const double radius = params_.radius_m / cell_m_ - kSunk;
-  if (radius < 0) return;
-  const auto reach = static_cast<std::int64_t>(std::ceil(radius));
+  const double blind = params_.blind_m / cell_m_;
+  const auto reach = static_cast<std::int64_t>(std::ceil(std::max(radius, blind)));
   const std::int64_t x0 = cell_of(sight.east);
   const std::int64_t y0 = cell_of(sight.north);
   for (std::int64_t y = y0 - reach; y <= y0 + reach; ++y) {
     for (std::int64_t x = x0 - reach; x <= x0 + reach; ++x) {
+      if (!holds(x, y)) continue;
+      const std::size_t i = index(x, y);
+      if (memory_.evidence[i] <= kFree) continue;
       const double distance =
           std::hypot(static_cast<double>(x) + 0.5 - sight.east, static_cast<double>(y) + 0.5 - sight.north);
-      if (distance <= radius && holds(x, y))
-        memory_.evidence[index(x, y)] = std::min(memory_.evidence[index(x, y)], kFree);
+      if (distance <= radius) memory_.evidence[i] = kFree;
+      if (distance <= blind) memory_.seen[i] = now_;
     }
   }
 }
@@ -309,6 +312,7 @@ Status RollingMap::add(const NavGrid& frame, const MapPose& at) {
   now_ = static_cast<std::uint32_t>(std::max<std::int64_t>(0, at.time_ns - first_ns_) / kTickNs);
   near_m_ = params_.near_m + speed * params_.latency_s + speed * speed / (2 * params_.deceleration_mps2);
   roll(x, y);
+  stand_here(sight);
   forget_old();
   clear_seen_free(frame, sight);
   add_obstacles(frame, sight);

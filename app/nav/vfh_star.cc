@@ -223,6 +223,27 @@ PolarHistogram star_histogram(const StarCells& cells, const GridGeometry& geomet
   return histogram;
 }
 
+PolarHistogram star_histogram(const StarCells& cells, const GridGeometry& geometry, double active_radius_m,
+                              double enlargement_m) {
+  const double cell_m = geometry.cell_mm / 1000.0;
+  PolarHistogram histogram{};
+  for (int i = 0; i < cells.count; ++i) {
+    const StarCells::Cell& cell = cells.items[static_cast<std::size_t>(i)];
+    const double x = (cell.row + 0.5) * cell_m;
+    const double y = (geometry.cols - 1 - 2 * cell.col) * cell_m / 2;
+    const double share = (x * x + y * y) / (active_radius_m * active_radius_m);
+    if (share > 1) continue;
+    const auto weight = static_cast<std::uint32_t>(std::lround(kPolarMaxWeight * (1 - share)));
+    for (int k = 0; k < kPolarSectors; ++k) {
+      const double c = std::cos(sector_centre(k));
+      const double s = std::sin(sector_centre(k));
+      if (x * c + y * s >= -kTolerance && std::abs(x * s - y * c) <= enlargement_m)
+        histogram[sector_index(k)] += weight;
+    }
+  }
+  return histogram;
+}
+
 std::optional<double> choose_by_look_ahead(const StarMap& map, const Openings& openings,
                                            const SectorMask& selectable, const Wishes& wishes, double target_m,
                                            const DirectionCosts& costs, const StarParams& params) {

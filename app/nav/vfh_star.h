@@ -54,6 +54,10 @@ void find_star_cells(ImageView<const std::uint8_t> type, const GridGeometry& geo
 PolarHistogram star_histogram(const StarCells& cells, const GridGeometry& geometry,
                               std::span<const PolarEntry> table, int rows, int left);
 
+// The turning centre's histogram with another enlargement than the table's, without one: for the rare frame that needs it.
+PolarHistogram star_histogram(const StarCells& cells, const GridGeometry& geometry, double active_radius_m,
+                              double enlargement_m);
+
 struct StarMap {
   ImageView<const std::uint8_t> type;
   GridGeometry geometry;

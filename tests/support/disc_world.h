@@ -63,6 +63,7 @@ class DiscDrive {
     vehicle.max_speed_mps = 1;
     vehicle.contact_time_s = 1.5;
     map_params.size_m = 16;
+    map_params.blind_m = params.blind_zone_m;
     map_params.camera.angle = radians(20);
   }
 

@@ -170,11 +170,15 @@ TEST_F(RollingMapTest, WhatIsNotSeenStaysUntilItsTimeIsOver) {
     ASSERT_EQ(obstacles(), 4) << i;
   }
   fill(kCellUnknown);
-  add(params.keep_s - 3);
+  // So near it stays for as long as the vehicle stands there, 1.2 m away for its time.
+  add(10 * params.keep_s);
   EXPECT_EQ(obstacles(), 4);
-  add(3);
+  at.pose.east_m -= 1.2;
+  add(params.keep_s - 1);
+  EXPECT_EQ(obstacles(), 4);
+  add(1.6);
   EXPECT_EQ(obstacles(), 0);
-  EXPECT_EQ(cell(3, 45), kCellUnknown);
+  EXPECT_EQ(cell(14, 45), kCellUnknown);
 }
 
 // Rules e and f: the floor below a bar that has left the image at the top does not clear it; from far away, where the camera sees
