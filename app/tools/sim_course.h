@@ -1,0 +1,94 @@
+// Private to sim_*.cc: the parts of a course's picture.
+#pragma once
+
+#include <array>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/tools/picture_panels.h"
+#include "app/tools/sim/run_result.h"
+#include "app/tools/sim/world.h"
+
+namespace lakshya {
+
+// What things are told apart by in the picture; drawn in this order.
+enum class Look : std::uint8_t {
+  lying,  // may be driven over
+  rock,
+  furniture,
+  plant,
+  pole,
+  wall,
+  other,
+  glass,
+  person,
+  hanging_low,
+  hanging_high,  // may be driven under
+};
+inline constexpr std::size_t kLooks = 11;
+
+Look look_of(const sim::Thing& thing, const sim::Ground& ground);
+LegendItem legend_of(Look look);
+
+// A rectangle of the world frame, metres.
+struct Extent {
+  double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  double width() const { return x1 - x0; }
+  double height() const { return y1 - y0; }
+  void take(double x, double y);
+  void grow(double by);
+};
+
+// From metres in the world frame to px of the map.
+struct CourseView {
+  Extent extent;
+  bool turned = false;  // north is to the right instead of up
+  double scale = 1;     // px per metre
+  Point at(double x, double y) const {
+    return turned ? Point{(y - extent.y0) * scale, (x - extent.x0) * scale}
+                  : Point{(x - extent.x0) * scale, (extent.y1 - y) * scale};
+  }
+  Box box(double x0, double y0, double x1, double y1) const;
+  int width() const;
+  int height() const;
+};
+
+CourseView course_view(const sim::World& world, const sim::RunResult& result, int width, int most_height);
+
+// Texts that give way to each other and to what must stay in sight.
+class Labels {
+ public:
+  explicit Labels(const Box& area) : area_(area) {}
+  void keep_free(const Box& box) { taken_.push_back(box); }
+  // Beside `anchor`, so many px away, wherever there is room; false: nowhere, nothing is drawn.
+  bool put(Canvas& canvas, Point anchor, double away, const std::string& text, double cap_height, Rgb8 color);
+
+ private:
+  bool is_free(const Box& box) const;
+
+  Box area_;
+  std::vector<Box> taken_;
+};
+
+// Floor, patches, things. `seconds`: when the drive ended, for what walks. Gives what was drawn, for the legend.
+struct DrawnWorld {
+  std::set<Look> looks;
+  std::vector<LegendItem> ground;
+  bool walks = false;
+};
+DrawnWorld draw_world(Canvas& map, const CourseView& view, const sim::World& world, double seconds);
+
+// The middle of what a thing covers at that time, world frame.
+Point middle_of(const sim::Thing& thing, double seconds);
+
+struct CourseLegend {
+  std::vector<LegendItem> items;
+  double fastest_mps = 1;  // end of the colour scale
+};
+// The way, the vehicle on it, start, goals and what happened.
+CourseLegend draw_drive(Canvas& map, const CourseView& view, const sim::World& world, const sim::RunResult& result,
+                        double vehicle_radius_m, Labels& labels);
+Rgb8 speed_color(double share);
+
+}  // namespace lakshya

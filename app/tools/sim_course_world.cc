@@ -1,0 +1,290 @@
+// The simulated world from above.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string_view>
+
+#include "app/tools/picture_colors.h"
+#include "app/tools/sim/walk.h"
+#include "app/tools/sim_course.h"
+
+namespace lakshya {
+namespace {
+
+using sim::GroundPatch;
+using sim::Place;
+using sim::Thing;
+
+constexpr double kHeadroom = 1.2;  // m; parts of a thing that begin higher do not stand in the way
+constexpr double kLifted = 0.1;    // m above the ground: it hangs
+
+constexpr Rgb8 kIndoorFloor{246, 243, 237};
+constexpr Rgb8 kOutdoorGround{232, 238, 222};
+constexpr Rgb8 kLevelPatch{238, 226, 200};
+constexpr Rgb8 kRampLow{240, 226, 196};
+constexpr Rgb8 kRampHigh{214, 176, 120};
+constexpr Rgb8 kKerb{150, 146, 140};
+constexpr Rgb8 kDropOff{52, 30, 58};
+constexpr Rgb8 kDropOffHatch{150, 90, 150};
+constexpr Rgb8 kWalkColor{170, 60, 130};
+
+struct Style {
+  const char* text;
+  Rgb8 fill;
+  Rgb8 rim;
+  bool hatched;  // instead of filled
+};
+
+constexpr std::array<Style, kLooks> kStyles{{
+    {"may be driven over", {255, 255, 255}, {120, 150, 180}, false},
+    {"rock", {150, 140, 128}, {84, 76, 66}, false},
+    {"furniture, boxes", {186, 132, 82}, {104, 66, 30}, false},
+    {"bush, hedge", {104, 158, 92}, {50, 96, 44}, false},
+    {"pole, post, fence", {70, 84, 112}, {34, 42, 62}, false},
+    {"wall", {140, 144, 150}, {84, 88, 94}, false},
+    {"other obstacle", {160, 110, 120}, {96, 56, 66}, false},
+    {"glass", {168, 216, 240}, {60, 150, 200}, false},
+    {"person", {214, 120, 178}, {120, 40, 92}, false},
+    {"hangs low: must not be touched", {255, 255, 255}, {190, 70, 20}, true},
+    {"hangs high: may be driven under", {255, 255, 255}, {150, 170, 190}, true},
+}};
+
+const Style& style_of(Look look) {
+  return kStyles[static_cast<std::size_t>(look)];
+}
+
+using Triangle = std::array<Point, 3>;
+
+bool names_one_of(const std::string& kind, std::initializer_list<std::string_view> words) {
+  return std::ranges::any_of(words, [&](std::string_view word) { return kind.find(word) != std::string::npos; });
+}
+
+// Height of the lowest corner above the ground below it.
+double lift_of(const Thing& thing, const sim::Ground& ground) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector3f& v : thing.mesh.vertices) {
+    const double floor = thing.walk ? 0 : ground_height(ground, v.x(), v.y());
+    lowest = std::min(lowest, v.z() - floor);
+  }
+  return lowest;
+}
+
+// The lowest height of the body that each triangle belongs to: triangles that share corners are one body. A doorway's lintel and
+// the cords of a lamp are bodies of their own.
+std::vector<double> body_bottoms(const sim::Mesh& mesh) {
+  std::vector<std::size_t> parent(mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto root = [&](std::size_t i) {
+    while (parent[i] != i)
+      i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (const auto& t : mesh.triangles) {
+    parent[root(t[1])] = root(t[0]);
+    parent[root(t[2])] = root(t[0]);
+  }
+  std::vector<double> lowest(mesh.vertices.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    lowest[root(i)] = std::min(lowest[root(i)], static_cast<double>(mesh.vertices[i].z()));
+  std::vector<double> bottoms;
+  for (const auto& t : mesh.triangles)
+    bottoms.push_back(lowest[root(t[0])]);
+  return bottoms;
+}
+
+// What is below the headroom; all of it where nothing is.
+std::vector<Triangle> footprint(const Thing& thing, const Place& place, double ground, const CourseView& view) {
+  const double c = std::cos(place.yaw);
+  const double s = std::sin(place.yaw);
+  const std::vector<double> bottoms = body_bottoms(thing.mesh);
+  const bool all = std::ranges::none_of(bottoms, [&](double z) { return z - ground < kHeadroom; });
+  std::vector<Triangle> out;
+  for (std::size_t i = 0; i < thing.mesh.triangles.size(); ++i) {
+    if (!all && bottoms[i] - ground >= kHeadroom) continue;
+    Triangle triangle;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3f& v = thing.mesh.vertices[thing.mesh.triangles[i][k]];
+      triangle[k] = view.at(place.x + c * v.x() - s * v.y(), place.y + s * v.x() + c * v.y());
+    }
+    out.push_back(triangle);
+  }
+  return out;
+}
+
+// Lines x + y = n * spacing within the triangle; those of neighbours go on in each other.
+void hatch(Canvas& map, const Triangle& t, Rgb8 color) {
+  constexpr double kSpacing = 6;
+  const auto level = [](Point p) { return p.x + p.y; };
+  const auto [low, high] = std::minmax({level(t[0]), level(t[1]), level(t[2])});
+  for (double at = std::ceil(low / kSpacing) * kSpacing; at <= high; at += kSpacing) {
+    std::vector<Point> ends;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point a = t[k];
+      const Point b = t[(k + 1) % 3];
+      const double rise = level(b) - level(a);
+      const double share = rise == 0 ? -1 : (at - level(a)) / rise;
+      if (share >= 0 && share <= 1) ends.push_back({a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)});
+    }
+    if (ends.size() >= 2) map.line({ends.front(), ends.back()}, color, 1);
+  }
+}
+
+// The union of the triangles with a rim: edges first, then the areas over all edges that lie inside.
+void draw_footprint(Canvas& map, const std::vector<Triangle>& triangles, const Style& style) {
+  for (const Triangle& t : triangles)
+    map.line({t[0], t[1], t[2], t[0]}, style.rim, 3);
+  for (const Triangle& t : triangles)
+    map.polygon({t[0], t[1], t[2]}, style.fill);
+  if (!style.hatched) return;
+  for (const Triangle& t : triangles)
+    hatch(map, t, style.rim);
+}
+
+void draw_walk(Canvas& map, const CourseView& view, const Thing& thing, double seconds) {
+  std::vector<Point> way;
+  for (const Eigen::Vector2d& p : thing.walk->points)
+    way.push_back(view.at(p.x(), p.y()));
+  map.line(way, kWalkColor, 2, Stroke::dashed);
+  const Place begin = place_on_walk(*thing.walk, 0);
+  const double ring = std::max(6.0, 0.25 * view.scale);
+  map.line(arc_points(view.at(begin.x, begin.y), ring, -3.15, 3.15), kWalkColor, 2);
+  const Place end = place_on_walk(*thing.walk, seconds);
+  draw_footprint(map, footprint(thing, end, 0, view), style_of(Look::person));
+}
+
+// ---- the ground
+
+bool is_ramp(const GroundPatch& p) {
+  return !p.dropoff && !p.obstacle && (p.slope_x != 0 || p.slope_y != 0);
+}
+
+void draw_ramp(Canvas& map, const CourseView& view, const GroundPatch& p) {
+  constexpr int kStrips = 24;
+  const bool along_x = std::abs(p.slope_x) >= std::abs(p.slope_y);
+  const bool rises = along_x ? p.slope_x > 0 : p.slope_y > 0;
+  for (int i = 0; i < kStrips; ++i) {
+    const double from = static_cast<double>(i) / kStrips;
+    const double to = (i + 1.0) / kStrips;
+    const Rgb8 color = mix(kRampLow, kRampHigh, rises ? from : 1 - from);
+    const double w = p.x1 - p.x0;
+    const double h = p.y1 - p.y0;
+    map.fill(along_x ? view.box(p.x0 + from * w, p.y0, p.x0 + to * w, p.y1)
+                     : view.box(p.x0, p.y0 + from * h, p.x1, p.y0 + to * h),
+             color);
+  }
+  const Point low{along_x ? (rises ? p.x0 : p.x1) : 0, along_x ? 0 : (rises ? p.y0 : p.y1)};
+  const Point high{along_x ? (rises ? p.x1 : p.x0) : 0, along_x ? 0 : (rises ? p.y1 : p.y0)};
+  for (const double across : {0.2, 0.8}) {
+    const double x = p.x0 + across * (p.x1 - p.x0);
+    const double y = p.y0 + across * (p.y1 - p.y0);
+    const auto at = [&](double share) {
+      return along_x ? view.at(low.x + share * (high.x - low.x), y) : view.at(x, low.y + share * (high.y - low.y));
+    };
+    map.arrow({at(0.15), at(0.85)}, {130, 92, 44}, 1.5);
+  }
+}
+
+LegendItem framed_item(const std::string& text, Rgb8 color, bool hatched) {
+  return {text, [=](Canvas& canvas, const Box& swatch) {
+            canvas.fill(swatch, color);
+            if (hatched) canvas.hatch(swatch, kDropOffHatch, 7);
+            canvas.frame(swatch, kFaintInk);
+          }};
+}
+
+void draw_patch(Canvas& map, const CourseView& view, const GroundPatch& p) {
+  const Box box = view.box(p.x0, p.y0, p.x1, p.y1);
+  if (p.dropoff) {
+    map.fill(box, kDropOff);
+    map.hatch(box, kDropOffHatch, 9);
+  } else if (p.obstacle) {
+    map.fill(box, kKerb);
+  } else if (is_ramp(p)) {
+    draw_ramp(map, view, p);
+  } else {
+    map.fill(box, p.height_m == 0 ? kLevelPatch : mix(kRampLow, kRampHigh, 0.8));
+  }
+  map.frame(box, mix(kFaintInk, kPaper, p.height_m == 0 && !p.dropoff ? 0.6 : 0.0));
+}
+
+std::vector<LegendItem> ground_legend(const sim::Ground& ground) {
+  const auto any = [&](auto is) { return std::ranges::any_of(ground.patches, is); };
+  std::vector<LegendItem> items;
+  if (any(is_ramp)) items.push_back(framed_item("ramp, arrows uphill", mix(kRampLow, kRampHigh, 0.6), false));
+  if (any([](const GroundPatch& p) { return !p.dropoff && !p.obstacle && !is_ramp(p) && p.height_m != 0; }))
+    items.push_back(framed_item("platform", mix(kRampLow, kRampHigh, 0.8), false));
+  if (any([](const GroundPatch& p) { return p.obstacle; })) items.push_back(framed_item("kerb", kKerb, false));
+  if (any([](const GroundPatch& p) { return p.dropoff; })) items.push_back(framed_item("drop-off", kDropOff, true));
+  return items;
+}
+
+}  // namespace
+
+Look look_of(const Thing& thing, const sim::Ground& ground) {
+  const std::string& kind = thing.kind;
+  if (thing.expect == sim::Expect::glass) return Look::glass;
+  const double lift = lift_of(thing, ground);
+  if (thing.expect == sim::Expect::free) return lift > kLifted ? Look::hanging_high : Look::lying;
+  if (thing.walk || names_one_of(kind, {"person"})) return Look::person;
+  if (std::isfinite(lift) && lift > kLifted) return Look::hanging_low;
+  if (names_one_of(kind, {"wall", "door"})) return Look::wall;
+  if (names_one_of(kind, {"bush", "hedge", "tree", "plant"})) return Look::plant;
+  if (names_one_of(kind, {"rock", "stone"})) return Look::rock;
+  if (names_one_of(kind, {"pole", "post", "column", "pillar", "fence", "lamp"})) return Look::pole;
+  if (names_one_of(kind, {"table", "chair", "shelf", "bench", "box", "crate", "desk", "sofa", "cupboard", "bed"}))
+    return Look::furniture;
+  return Look::other;
+}
+
+LegendItem legend_of(Look look) {
+  const Style& style = style_of(look);
+  return {style.text, [&style](Canvas& canvas, const Box& swatch) {
+            const double x0 = swatch.x;
+            const double y0 = swatch.y;
+            const double x1 = swatch.right();
+            const double y1 = swatch.bottom();
+            draw_footprint(canvas, {{Point{x0, y0}, Point{x1, y0}, Point{x1, y1}}, {Point{x0, y0}, Point{x1, y1}, Point{x0, y1}}},
+                           style);
+          }};
+}
+
+Point middle_of(const Thing& thing, double seconds) {
+  if (thing.walk) {
+    const Place place = place_on_walk(*thing.walk, seconds);
+    return {place.x, place.y};
+  }
+  if (thing.mesh.vertices.empty()) return {};
+  Extent e{thing.mesh.vertices[0].x(), thing.mesh.vertices[0].y(), thing.mesh.vertices[0].x(), thing.mesh.vertices[0].y()};
+  for (const Eigen::Vector3f& v : thing.mesh.vertices)
+    e.take(v.x(), v.y());
+  return {(e.x0 + e.x1) / 2, (e.y0 + e.y1) / 2};
+}
+
+DrawnWorld draw_world(Canvas& map, const CourseView& view, const sim::World& world, double seconds) {
+  DrawnWorld drawn;
+  const sim::Ground& ground = world.ground;
+  map.fill({0, 0, map.width(), map.height()}, kOutsideMap);
+  map.fill(view.box(ground.x0, ground.y0, ground.x1, ground.y1), world.indoor ? kIndoorFloor : kOutdoorGround);
+  for (const GroundPatch& patch : ground.patches)
+    draw_patch(map, view, patch);
+  drawn.ground = ground_legend(ground);
+  std::vector<std::pair<Look, const Thing*>> things;
+  for (const Thing& thing : world.things)
+    things.emplace_back(look_of(thing, ground), &thing);
+  std::ranges::stable_sort(things, {}, [](const auto& item) { return item.first; });
+  for (const auto& [look, thing] : things) {
+    drawn.looks.insert(look);
+    if (thing->walk) {
+      drawn.walks = true;
+      draw_walk(map, view, *thing, seconds);
+      continue;
+    }
+    const Point middle = middle_of(*thing, 0);
+    draw_footprint(map, footprint(*thing, {}, ground_height(ground, middle.x, middle.y), view), style_of(look));
+  }
+  return drawn;
+}
+
+}  // namespace lakshya
