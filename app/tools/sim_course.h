@@ -61,14 +61,22 @@ class Labels {
  public:
   explicit Labels(const Box& area) : area_(area) {}
   void keep_free(const Box& box) { taken_.push_back(box); }
-  // Beside `anchor`, so many px away, wherever there is room; false: nowhere, nothing is drawn.
-  bool put(Canvas& canvas, Point anchor, double away, const std::string& text, double cap_height, Rgb8 color);
+  // Free where there is room elsewhere.
+  void rather_free(const Box& box) { avoided_.push_back(box); }
+  // Beside the box, so many px away, wherever there is room; within it where it is large and `inside`. false: nowhere, nothing
+  // is drawn.
+  bool put(Canvas& canvas, const Box& about, double away, const std::string& text, double cap_height, Rgb8 color,
+           bool inside = false);
+  bool put(Canvas& canvas, Point about, double away, const std::string& text, double cap_height, Rgb8 color) {
+    return put(canvas, Box{static_cast<int>(about.x), static_cast<int>(about.y), 0, 0}, away, text, cap_height, color);
+  }
 
  private:
-  bool is_free(const Box& box) const;
+  bool is_free(const Box& box, bool strictly) const;
 
   Box area_;
   std::vector<Box> taken_;
+  std::vector<Box> avoided_;
 };
 
 // Floor, patches, things. `seconds`: when the drive ended, for what walks. Gives what was drawn, for the legend.
@@ -79,8 +87,8 @@ struct DrawnWorld {
 };
 DrawnWorld draw_world(Canvas& map, const CourseView& view, const sim::World& world, double seconds);
 
-// The middle of what a thing covers at that time, world frame.
-Point middle_of(const sim::Thing& thing, double seconds);
+// What a thing covers at that time, px; empty where it has no shape.
+Box box_of(const sim::Thing& thing, double seconds, const CourseView& view);
 
 struct CourseLegend {
   std::vector<LegendItem> items;

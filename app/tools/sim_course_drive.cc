@@ -58,8 +58,8 @@ void draw_discs(Canvas& map, const CourseView& view, const std::vector<TracePoin
   for (const TracePoint& p : trace) {
     if (p.time_s < next) continue;
     next = p.time_s + kDiscStep - 0.05;
-    map.polygon(circle(place_of(view, p), radius_px), kVehicleColor, 0.13);
-    map.line(circle(place_of(view, p), radius_px), mix(kVehicleColor, kPaper, 0.45), 1);
+    map.polygon(circle(place_of(view, p), radius_px), kVehicleColor, 0.16);
+    map.line(circle(place_of(view, p), radius_px), mix(kVehicleColor, kPaper, 0.3), 1);
   }
 }
 
@@ -182,7 +182,7 @@ std::vector<LegendItem> drive_legend(const std::vector<TracePoint>& trace) {
       disc_item("vehicle, every " + decimal(kDiscStep, 0) + " s", mix(kVehicleColor, kPaper, 0.45), mix(kPaper, kVehicleColor, 0.2))};
   if (!stands(trace).empty()) items.push_back(disc_item("stood still", kInk, {255, 214, 60}));
   if (std::ranges::any_of(trace, &TracePoint::blocked))
-    items.push_back(line_item("saw no way open", kBlockedHalo, kPathWidth + 10, Stroke::solid));
+    items.push_back(filled_item("saw no way open", kBlockedHalo));
   return items;
 }
 

@@ -9,7 +9,7 @@
 namespace lakshya {
 namespace {
 
-constexpr double kAround = 2.5;         // m beside the way that are always shown, if there is anything
+constexpr double kAround = 4;         // m beside the way that are always shown, if there is anything
 constexpr double kAroundShare = 0.15;   // of the way's extent, likewise
 constexpr double kRim = 0.4;            // m beyond the last thing
 constexpr double kFlattest = 0.36;      // height of the map over its width
@@ -104,31 +104,41 @@ CourseView course_view(const sim::World& world, const sim::RunResult& result, in
   return view;
 }
 
-bool Labels::is_free(const Box& box) const {
-  const bool inside = box.x >= area_.x && box.y >= area_.y && box.right() <= area_.right() && box.bottom() <= area_.bottom();
-  return inside && std::ranges::none_of(taken_, [&](const Box& other) { return overlap(box, other); });
+bool Labels::is_free(const Box& box, bool strictly) const {
+  if (box.x < area_.x || box.y < area_.y || box.right() > area_.right() || box.bottom() > area_.bottom()) return false;
+  const auto is_hit = [&](const Box& other) { return overlap(box, other); };
+  return std::ranges::none_of(taken_, is_hit) && !(strictly && std::ranges::any_of(avoided_, is_hit));
 }
 
-bool Labels::put(Canvas& canvas, Point anchor, double away, const std::string& text, double cap_height, Rgb8 color) {
+bool Labels::put(Canvas& canvas, const Box& about, double away, const std::string& text, double cap_height,
+                 Rgb8 color, bool inside) {
   constexpr int kAir = 3;  // px around a text
   const int width = text_width(text, cap_height) + 2 * kAir;
   const int height = static_cast<int>(cap_height * 1.35) + 2 * kAir;
-  // Right, left, above, below, then the corners: where the box's middle goes, in halves of its size.
-  constexpr std::array<Point, 8> kSides{
-      {{1, 0}, {-1, 0}, {0, -1}, {0, 1}, {0.8, -1}, {-0.8, -1}, {0.8, 1}, {-0.8, 1}}};
-  for (const double farther : {1.0, 1.8}) {
-    for (const Point& side : kSides) {
-      const double out_x = std::abs(side.x) == 1 ? away * farther * side.x : 0;
-      const double out_y = side.y * away * farther;
-      const Point middle{anchor.x + out_x + side.x * width / 2, anchor.y + out_y + side.y * height / 2};
-      const Box box{static_cast<int>(std::lround(middle.x - width / 2.0)),
-                    static_cast<int>(std::lround(middle.y - height / 2.0)), width, height};
-      if (!is_free(box)) continue;
-      const Point at{box.x + kAir + 0.0, box.y + kAir + cap_height};
-      canvas.text(at, text, cap_height, kPaper, Align::left, 4);
-      canvas.text(at, text, cap_height, color);
-      keep_free(box);
-      return true;
+  const Point middle{about.x + about.width / 2.0, about.y + about.height / 2.0};
+  const auto put_at = [&](Point at, bool strictly) {
+    const Box box{static_cast<int>(std::lround(at.x - width / 2.0)), static_cast<int>(std::lround(at.y - height / 2.0)),
+                  width, height};
+    if (!is_free(box, strictly)) return false;
+    const Point baseline{box.x + kAir + 0.0, box.y + kAir + cap_height};
+    canvas.text(baseline, text, cap_height, kPaper, Align::left, 4);
+    canvas.text(baseline, text, cap_height, color);
+    keep_free(box);
+    return true;
+  };
+  if (inside && about.width > width && about.height > height && put_at(middle, false)) return true;
+  // Right, left, above, below, then the corners.
+  constexpr std::array<Point, 8> kSides{{{1, 0}, {-1, 0}, {0, -1}, {0, 1}, {1, -1}, {-1, -1}, {1, 1}, {-1, 1}}};
+  for (const bool strictly : {true, false}) {
+    for (const double farther : {1.0, 1.8}) {
+      for (const Point& side : kSides) {
+        const bool is_corner = side.x != 0 && side.y != 0;
+        const double out = away * farther * (is_corner ? 0.5 : 1);
+        if (put_at({middle.x + side.x * (about.width / 2.0 + out + width / 2.0),
+                    middle.y + side.y * (about.height / 2.0 + out + height / 2.0)},
+                   strictly))
+          return true;
+      }
     }
   }
   return false;

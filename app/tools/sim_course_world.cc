@@ -250,16 +250,21 @@ LegendItem legend_of(Look look) {
           }};
 }
 
-Point middle_of(const Thing& thing, double seconds) {
-  if (thing.walk) {
-    const Place place = place_on_walk(*thing.walk, seconds);
-    return {place.x, place.y};
-  }
+Box box_of(const Thing& thing, double seconds, const CourseView& view) {
   if (thing.mesh.vertices.empty()) return {};
-  Extent e{thing.mesh.vertices[0].x(), thing.mesh.vertices[0].y(), thing.mesh.vertices[0].x(), thing.mesh.vertices[0].y()};
-  for (const Eigen::Vector3f& v : thing.mesh.vertices)
-    e.take(v.x(), v.y());
-  return {(e.x0 + e.x1) / 2, (e.y0 + e.y1) / 2};
+  const Place place = thing.walk ? place_on_walk(*thing.walk, seconds) : Place{};
+  const double c = std::cos(place.yaw);
+  const double s = std::sin(place.yaw);
+  const auto turned = [&](const Eigen::Vector3f& v) {
+    return Point{place.x + c * v.x() - s * v.y(), place.y + s * v.x() + c * v.y()};
+  };
+  const Point first = turned(thing.mesh.vertices.front());
+  Extent e{first.x, first.y, first.x, first.y};
+  for (const Eigen::Vector3f& v : thing.mesh.vertices) {
+    const Point p = turned(v);
+    e.take(p.x, p.y);
+  }
+  return view.box(e.x0, e.y0, e.x1, e.y1);
 }
 
 DrawnWorld draw_world(Canvas& map, const CourseView& view, const sim::World& world, double seconds) {
@@ -275,14 +280,17 @@ DrawnWorld draw_world(Canvas& map, const CourseView& view, const sim::World& wor
     things.emplace_back(look_of(thing, ground), &thing);
   std::ranges::stable_sort(things, {}, [](const auto& item) { return item.first; });
   for (const auto& [look, thing] : things) {
+    const Box box = box_of(*thing, seconds, view);
+    if (!thing->walk && !overlap(box, {0, 0, map.width(), map.height()})) continue;
     drawn.looks.insert(look);
     if (thing->walk) {
       drawn.walks = true;
       draw_walk(map, view, *thing, seconds);
       continue;
     }
-    const Point middle = middle_of(*thing, 0);
-    draw_footprint(map, footprint(*thing, {}, ground_height(ground, middle.x, middle.y), view), style_of(look));
+    const Eigen::Vector3f& corner = thing->mesh.vertices.front();
+    const double floor = ground_height(ground, corner.x(), corner.y());
+    draw_footprint(map, footprint(*thing, {}, floor, view), style_of(look));
   }
   return drawn;
 }

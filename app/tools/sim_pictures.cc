@@ -19,7 +19,7 @@ constexpr int kCourseTop = 86;
 constexpr int kMostMapHeight = 900;
 constexpr int kScaleRow = 48;
 constexpr std::size_t kFewThings = 14;  // that are all named
-constexpr double kNear = 1.5;           // m from the way to the middle of a thing that is named among many
+constexpr double kNear = 1.2;           // m from the way to a thing that is named among many
 
 std::string metres(double value) {
   return std::isfinite(value) ? decimal(value, value < 10 ? 2 : 1) + " m" : "-";
@@ -44,28 +44,38 @@ void draw_title(Canvas& sheet, const RunResult& r) {
   sheet.text({kMargin, 68}, text_that_fits(figures_text(r), kHeadText, room), kHeadText, kFaintInk);
 }
 
-double distance_to_way(const std::vector<sim::TracePoint>& trace, Point at) {
+double distance_to_way(const CourseView& view, const std::vector<sim::TracePoint>& trace, const Box& box) {
   double least = std::numeric_limits<double>::infinity();
-  for (const sim::TracePoint& p : trace)
-    least = std::min(least, std::hypot(p.x - at.x, p.y - at.y));
-  return least;
+  for (const sim::TracePoint& p : trace) {
+    const Point at = view.at(p.x, p.y);
+    least = std::min(least, std::hypot(std::max({box.x - at.x, at.x - box.right(), 0.0}),
+                                       std::max({box.y - at.y, at.y - box.bottom(), 0.0})));
+  }
+  return least / view.scale;
 }
 
-void label_things(Canvas& map, const CourseView& view, const sim::World& world, const RunResult& r, Labels& labels) {
-  std::vector<std::pair<double, const sim::Thing*>> named;
+struct Named {
+  double distance_m;
+  Box box;
+  const std::string* name;
+  bool walks;
+};
+
+// What a text rather does not lie on, and what gets one itself, the nearest to the way first.
+std::vector<Named> things_to_name(const CourseView& view, const sim::World& world, const RunResult& r, Labels& labels) {
+  std::vector<Named> named;
   for (const sim::Thing& thing : world.things) {
     if (look_of(thing, world.ground) == Look::wall || thing.mesh.vertices.empty()) continue;
-    named.emplace_back(distance_to_way(r.trace, middle_of(thing, r.time_s)), &thing);
+    const Box box = box_of(thing, r.time_s, view);
+    labels.rather_free(box);
+    if (thing.name != r.hit) named.push_back({distance_to_way(view, r.trace, box), box, &thing.name, thing.walk.has_value()});
   }
-  // The nearest first: what there is no room for is far away.
-  std::ranges::stable_sort(named, {}, [](const auto& item) { return item.first; });
-  const bool few = named.size() <= kFewThings;
-  for (const auto& [distance, thing] : named) {
-    if (!few && distance > kNear && !thing->walk) continue;
-    const Point middle = middle_of(*thing, r.time_s);
-    const double away = thing->walk ? 0.35 * view.scale : 6;
-    labels.put(map, view.at(middle.x, middle.y), away, thing->name, kSmallText, kInk);
+  for (const sim::GroundPatch& p : world.ground.patches) {
+    if (p.dropoff) labels.rather_free(view.box(p.x0, p.y0, p.x1, p.y1));
   }
+  std::ranges::stable_sort(named, {}, &Named::distance_m);
+  if (named.size() > kFewThings) std::erase_if(named, [](const Named& n) { return n.distance_m > kNear && !n.walks; });
+  return named;
 }
 
 void draw_north(Canvas& map, const CourseView& view, Labels& labels) {
@@ -142,8 +152,10 @@ Image<Rgb8> course_picture(const sim::World& world, const RunResult& result, dou
   const DrawnWorld drawn = draw_world(map, view, world, result.time_s);
   Labels labels({0, 0, box.width, box.height});
   draw_north(map, view, labels);
+  const std::vector<Named> names = things_to_name(view, world, result, labels);
   const CourseLegend drive = draw_drive(map, view, world, result, vehicle_radius_m, labels);
-  label_things(map, view, world, result, labels);
+  for (const Named& n : names)
+    labels.put(map, n.box, 3, *n.name, kSmallText, kInk, true);
 
   const std::vector<LegendItem> items = legend_items(drawn, drive);
   Canvas sheet(kWidth, box.bottom() + kScaleRow + legend_height(items) + kMargin, kPaper);
