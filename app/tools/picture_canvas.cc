@@ -222,7 +222,7 @@ void Canvas::text(Point at, const std::string& text, double cap_height, Rgb8 col
               cap_height / kFontCapHeight, scalar(color), thickness, cv::LINE_AA);
 }
 
-void Canvas::paste(ImageView<const Rgb8> image, const Box& box) {
+void Canvas::paste(ImageView<const Rgb8> image, const Box& box, Enlarge how) {
   if (image.width <= 0 || image.height <= 0) return;
   // cv::Mat has no read-only form; nothing is written to it.
   const cv::Mat source(image.height, image.width, CV_8UC3, const_cast<Rgb8*>(image.data),
@@ -230,7 +230,8 @@ void Canvas::paste(ImageView<const Rgb8> image, const Box& box) {
   cv::Mat area = pixels_(inside(box, pixels_));
   if (area.empty()) return;
   const bool enlarge = area.cols > image.width;
-  cv::resize(source, area, area.size(), 0, 0, enlarge ? cv::INTER_NEAREST : cv::INTER_AREA);
+  const int enlarged = how == Enlarge::sharp ? cv::INTER_NEAREST : cv::INTER_LINEAR;
+  cv::resize(source, area, area.size(), 0, 0, enlarge ? enlarged : cv::INTER_AREA);
 }
 
 }  // namespace lakshya

@@ -28,6 +28,7 @@ bool overlap(const Box& a, const Box& b);
 
 enum class Align { left, center, right };
 enum class Stroke { solid, dashed };
+enum class Enlarge { sharp, smooth };
 
 // Cap heights in px.
 inline constexpr double kSmallText = 9.5;
@@ -74,8 +75,8 @@ class Canvas {
   // `at`: the baseline's left end, middle or right end.
   void text(Point at, const std::string& text, double cap_height, Rgb8 color, Align align = Align::left,
             int thickness = 1);
-  // The image scaled to fill the box: sharp pixels when enlarged, averaged when reduced.
-  void paste(ImageView<const Rgb8> image, const Box& box);
+  // The image scaled to fill the box: when enlarged as said, averaged when reduced.
+  void paste(ImageView<const Rgb8> image, const Box& box, Enlarge how = Enlarge::sharp);
 
  private:
   explicit Canvas(cv::Mat pixels) : pixels_(std::move(pixels)) {}

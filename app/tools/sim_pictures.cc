@@ -65,9 +65,10 @@ struct Named {
 std::vector<Named> things_to_name(const CourseView& view, const sim::World& world, const RunResult& r, Labels& labels) {
   std::vector<Named> named;
   for (const sim::Thing& thing : world.things) {
-    if (look_of(thing, world.ground) == Look::wall || thing.mesh.vertices.empty()) continue;
+    if (thing.mesh.vertices.empty()) continue;
     const Box box = box_of(thing, r.time_s, view);
     labels.rather_free(box);
+    if (look_of(thing, world.ground) == Look::wall) continue;
     if (thing.name != r.hit) named.push_back({distance_to_way(view, r.trace, box), box, &thing.name, thing.walk.has_value()});
   }
   for (const sim::GroundPatch& p : world.ground.patches) {
