@@ -54,7 +54,10 @@ void draw_rings(Canvas& area, const MapView& view, double farthest_m) {
   for (double r = step; r < 1.6 * farthest_m; r += step) {
     area.line(arc_points(view.origin, r * view.scale, -1.57, 1.57), mix(kUnknownCell, kInk, 0.25), 1);
     const Point at = view.at(r, 0);
-    if (at.y > 20) area.text({at.x + 5, at.y - 4}, decimal(r, 0) + " m", kSmallText, kFaintInk);
+    if (at.y < 24) continue;
+    const Point beside{at.x + 5, at.y - 5};
+    area.text(beside, decimal(r, 0) + " m", kSmallText, kPaper, Align::left, 4);
+    area.text(beside, decimal(r, 0) + " m", kSmallText, kInk);
   }
 }
 
@@ -91,8 +94,10 @@ void draw_map(Canvas& area, const FilmPicture& input) {
   draw_vehicle(area, view, input.config.vehicle.radius_m);
   caption(area, "map near the vehicle");
   if (!input.plan.blocked) return;
-  area.fill({kPanelWidth / 2 - 84, 26, 168, 28}, kBlockedColor, 0.85);
-  area.text({kPanelWidth / 2.0, 46}, input.plan.recovery == Side::left ? "no way: turn left" : "no way: turn right",
+  const Box box{kPanelWidth / 2 - 90, 26, 180, 30};
+  area.fill(box, kPaper);
+  area.fill({box.x + 2, box.y + 2, box.width - 4, box.height - 4}, kBlockedColor);
+  area.text({kPanelWidth / 2.0, 47}, input.plan.recovery == Side::left ? "no way: turn left" : "no way: turn right",
             kHeadText, kPaper, Align::center);
 }
 
@@ -125,10 +130,10 @@ void draw_legends(Canvas& sheet) {
   };
   draw_legend(sheet, {10, kLegendTop}, kPanelWidth,
               {tint("obstacle", PixelClass::obstacle), tint("floor", PixelClass::floor),
-               tint("drop-off", PixelClass::drop_off), cell_item("nothing found", {66, 66, 70})});
+               tint("drop-off", PixelClass::drop_off), tint("overhead", PixelClass::ceiling)});
   draw_legend(sheet, {kPanelWidth + 6, kLegendTop}, kPanelWidth,
               {cell_item("obstacle", kObstacleCell), cell_item("free", kFreeCell), cell_item("unknown", kUnknownCell),
-               line_item("chosen", kChosenColor, 4, Stroke::solid), line_item("goal", kTargetColor, 2, Stroke::dashed)});
+               line_item("way", kChosenColor, 4, Stroke::solid), line_item("goal", kTargetColor, 2, Stroke::dashed)});
 }
 
 }  // namespace
