@@ -7,12 +7,12 @@
 #include <memory>
 #include <numeric>
 
-#include "app/core/image_file.h"
 #include "app/core/input_error.h"
 #include "app/core/vehicle_config_keys.h"
 #include "app/loop/real_time.h"
 #include "app/tools/progress.h"
 #include "app/tools/sim_campaign.h"
+#include "app/tools/sim_drive.h"
 #include "app/tools/sim_setup.h"
 
 namespace lakshya {
@@ -26,6 +26,7 @@ struct CommandOptions {
   int count = 1;
   int jobs = 1;
   std::string record;
+  std::string out;
   std::string results;
   bool json = false;
 };
@@ -54,32 +55,48 @@ RunResult drive(const CommandOptions& o, std::uint64_t seed, const KernelTable& 
   if (o.jobs > 1) config.loop.threads = 1;
   RunResult result = run_world(world, config, run_settings(o.sim, seed), kernels);
   result.world = o.sim.world;
+  if (!o.record.empty()) record_course(o.record, world, result, config.vehicle.radius_m);
   return result;
 }
 
-void simulate(const CommandOptions& o) {
-  const KernelTable kernels = choose_kernels(o.sim.kernels);
-  // Refuses before the long work, not within it.
-  (void)choose_vehicle(o.sim, choose_world(o.sim.world, o.sim.seed).indoor);
-  if (!o.record.empty()) std::filesystem::create_directories(o.record);
+// With pictures, a film and a status line, in this process.
+RunResult watch(const CommandOptions& o, const KernelTable& kernels) {
+  const sim::World world = choose_world(o.sim.world, o.sim.seed);
+  const VehicleConfig config = choose_vehicle(o.sim, world.indoor);
+  RunResult result = watched_drive(o.sim.world, world, config, run_settings(o.sim, o.sim.seed), kernels, o.out);
+  if (!o.record.empty()) record_course(o.record, world, result, config.vehicle.radius_m);
+  return result;
+}
+
+std::vector<RunResult> drive_all(const CommandOptions& o, const KernelTable& kernels) {
   CampaignSettings settings;
   settings.jobs = o.jobs;
   settings.results = o.results;
   settings.seeds.resize(static_cast<std::size_t>(o.count));
   std::iota(settings.seeds.begin(), settings.seeds.end(), o.sim.seed);
-  std::vector<RunResult> results;
-  {
-    Progress progress(settings.seeds.size());
-    results = run_campaign(
-        settings, o.sim.world, o.sim.sensor, [&](std::uint64_t seed) { return drive(o, seed, kernels); },
-        [&](std::size_t done, const RunResult& newest) {
-          progress.done(done, "seed " + std::to_string(newest.seed) + " " +
-                                  std::string(sim::kEndingNames[static_cast<std::size_t>(newest.ending)]));
-        });
-  }
+  Progress progress(settings.seeds.size());
+  return run_campaign(
+      settings, o.sim.world, o.sim.sensor, [&](std::uint64_t seed) { return drive(o, seed, kernels); },
+      [&](std::size_t done, const RunResult& newest) {
+        progress.done(done, "seed " + std::to_string(newest.seed) + " " +
+                                std::string(sim::kEndingNames[static_cast<std::size_t>(newest.ending)]));
+      });
+}
+
+void simulate(const CommandOptions& o) {
+  if (!o.out.empty() && o.count > 1)
+    throw InputError("--out", "is for one drive, not for --count " + std::to_string(o.count) +
+                                  " (--record draws every drive of many)");
+  const KernelTable kernels = choose_kernels(o.sim.kernels);
+  // Refuses before the long work, not within it.
+  (void)choose_vehicle(o.sim, choose_world(o.sim.world, o.sim.seed).indoor);
+  if (!o.record.empty()) std::filesystem::create_directories(o.record);
+  const std::vector<RunResult> results =
+      o.out.empty() ? drive_all(o, kernels) : std::vector<RunResult>{watch(o, kernels)};
   for (const RunResult& result : results)
     print(o, result);
   std::cout << summary_json(results).dump(o.json ? -1 : 2) << '\n';
+  if (!o.out.empty() && !o.json) std::cout << "results: " << o.out << "/sheet.png shows everything on one sheet\n";
   if (o.count == 1 && results.front().ending != Ending::reached) throw CLI::RuntimeError(1);
 }
 
@@ -107,14 +124,22 @@ void add_sim_command(CLI::App& app, char** argv) {
       ->capture_default_str();
   command->add_option("--record", o->record, "A picture of every drive from above, into this folder")
       ->type_name("DIR");
+  CLI::Option* out =
+      command
+          ->add_option("--out", o->out,
+                       "One drive with everything to look at, into this folder: course.png, sheet.png, drive.webp (a film), "
+                       "result.json")
+          ->type_name("DIR");
   command
       ->add_option("--results", o->results,
                    "A file that keeps every drive's line: drives that are in it are not driven again")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->excludes(out);
   command->add_flag("--json", o->json, "Print every drive as a line of JSON, then one with the sums");
   command->footer(
       "Exit code 1: one drive (--count 1) that did not reach its goal, or refused input.\n"
-      "Example: lakshya sim --world random-indoor --seed 1 --count 20 --jobs 2");
+      "Examples: lakshya sim --world random-indoor --seed 1 --out out/drive\n"
+      "          lakshya sim --world random-indoor --seed 1 --count 20 --jobs 2 --record out/drives");
   add_config_options(*command, o->sim.config);
   add_kernel_options(*command, o->sim.kernels);
   command->callback([o, argv] {
