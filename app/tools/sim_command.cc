@@ -126,9 +126,10 @@ void add_sim_command(CLI::App& app, char** argv) {
       ->type_name("DIR");
   CLI::Option* out =
       command
-          ->add_option("--out", o->out,
-                       "One drive with everything to look at, into this folder: course.png, sheet.png, drive.webp (a film), "
-                       "result.json")
+          ->add_option(
+              "--out", o->out,
+              "One drive with everything to look at, into this folder: course.png, sheet.png, drive.webp (a film), "
+              "result.json")
           ->type_name("DIR");
   command
       ->add_option("--results", o->results,

@@ -68,7 +68,8 @@ class Labels {
   bool put(Canvas& canvas, const Box& about, double away, const std::string& text, double cap_height, Rgb8 color,
            bool inside = false);
   bool put(Canvas& canvas, Point about, double away, const std::string& text, double cap_height, Rgb8 color) {
-    return put(canvas, Box{static_cast<int>(about.x), static_cast<int>(about.y), 0, 0}, away, text, cap_height, color);
+    return put(canvas, Box{static_cast<int>(about.x), static_cast<int>(about.y), 0, 0}, away, text, cap_height,
+               color);
   }
 
  private:

@@ -178,8 +178,8 @@ LegendItem disc_item(const std::string& text, Rgb8 rim, Rgb8 fill) {
 }
 
 std::vector<LegendItem> drive_legend(const std::vector<TracePoint>& trace) {
-  std::vector<LegendItem> items{
-      disc_item("vehicle, every " + decimal(kDiscStep, 0) + " s", mix(kVehicleColor, kPaper, 0.45), mix(kPaper, kVehicleColor, 0.2))};
+  std::vector<LegendItem> items{disc_item("vehicle, every " + decimal(kDiscStep, 0) + " s",
+                                          mix(kVehicleColor, kPaper, 0.45), mix(kPaper, kVehicleColor, 0.2))};
   if (!stands(trace).empty()) items.push_back(disc_item("stood still", kInk, {255, 214, 60}));
   if (std::ranges::any_of(trace, &TracePoint::blocked))
     items.push_back(filled_item("saw no way open", kBlockedHalo));

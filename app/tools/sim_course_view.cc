@@ -9,10 +9,10 @@
 namespace lakshya {
 namespace {
 
-constexpr double kAround = 4;         // m beside the way that are always shown, if there is anything
-constexpr double kAroundShare = 0.15;   // of the way's extent, likewise
-constexpr double kRim = 0.4;            // m beyond the last thing
-constexpr double kFlattest = 0.36;      // height of the map over its width
+constexpr double kAround = 4;          // m beside the way that are always shown, if there is anything
+constexpr double kAroundShare = 0.15;  // of the way's extent, likewise
+constexpr double kRim = 0.4;           // m beyond the last thing
+constexpr double kFlattest = 0.36;     // height of the map over its width
 
 Extent way_extent(const sim::World& world, const sim::RunResult& result) {
   Extent e{world.start.x, world.start.y, world.start.x, world.start.y};
@@ -105,7 +105,8 @@ CourseView course_view(const sim::World& world, const sim::RunResult& result, in
 }
 
 bool Labels::is_free(const Box& box, bool strictly) const {
-  if (box.x < area_.x || box.y < area_.y || box.right() > area_.right() || box.bottom() > area_.bottom()) return false;
+  if (box.x < area_.x || box.y < area_.y || box.right() > area_.right() || box.bottom() > area_.bottom())
+    return false;
   const auto is_hit = [&](const Box& other) { return overlap(box, other); };
   return std::ranges::none_of(taken_, is_hit) && !(strictly && std::ranges::any_of(avoided_, is_hit));
 }
@@ -117,8 +118,8 @@ bool Labels::put(Canvas& canvas, const Box& about, double away, const std::strin
   const int height = static_cast<int>(cap_height * 1.35) + 2 * kAir;
   const Point middle{about.x + about.width / 2.0, about.y + about.height / 2.0};
   const auto put_at = [&](Point at, bool strictly) {
-    const Box box{static_cast<int>(std::lround(at.x - width / 2.0)), static_cast<int>(std::lround(at.y - height / 2.0)),
-                  width, height};
+    const Box box{static_cast<int>(std::lround(at.x - width / 2.0)),
+                  static_cast<int>(std::lround(at.y - height / 2.0)), width, height};
     if (!is_free(box, strictly)) return false;
     const Point baseline{box.x + kAir + 0.0, box.y + kAir + cap_height};
     canvas.text(baseline, text, cap_height, kPaper, Align::left, 4);

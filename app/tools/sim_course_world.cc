@@ -245,8 +245,10 @@ LegendItem legend_of(Look look) {
             const double y0 = swatch.y;
             const double x1 = swatch.right();
             const double y1 = swatch.bottom();
-            draw_footprint(canvas, {{Point{x0, y0}, Point{x1, y0}, Point{x1, y1}}, {Point{x0, y0}, Point{x1, y1}, Point{x0, y1}}},
-                           style);
+            draw_footprint(
+                canvas,
+                {{Point{x0, y0}, Point{x1, y0}, Point{x1, y1}}, {Point{x0, y0}, Point{x1, y1}, Point{x0, y1}}},
+                style);
           }};
 }
 

@@ -23,7 +23,8 @@ bool looks_at_pictures(sim::Sensor sensor) {
 
 void record_course(const std::string& folder, const sim::World& world, const sim::RunResult& result,
                    double vehicle_radius_m) {
-  const std::string file = world_label(result.world) + "_" + std::to_string(result.seed) + "_" + result.sensor + ".png";
+  const std::string file =
+      world_label(result.world) + "_" + std::to_string(result.seed) + "_" + result.sensor + ".png";
   write_png(folder + "/" + file, course_picture(world, result, vehicle_radius_m).view());
 }
 

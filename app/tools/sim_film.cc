@@ -49,15 +49,15 @@ class SimFilm::Encoder {
     picture.height = image.height();
     picture.use_argb = 1;
     static_assert(sizeof(Rgb8) == 3);
-    const bool done =
-        WebPPictureImportRGB(&picture, &image.view().data->r, 3 * image.width()) != 0 &&
-        WebPAnimEncoderAdd(encoder_, &picture, milliseconds(time_s), &config_) != 0;
+    const bool done = WebPPictureImportRGB(&picture, &image.view().data->r, 3 * image.width()) != 0 &&
+                      WebPAnimEncoderAdd(encoder_, &picture, milliseconds(time_s), &config_) != 0;
     WebPPictureFree(&picture);
     if (!done) fail(WebPAnimEncoderGetError(encoder_));
   }
 
   void write(const std::string& path, double end_s) {
-    if (WebPAnimEncoderAdd(encoder_, nullptr, milliseconds(end_s), nullptr) == 0) fail(WebPAnimEncoderGetError(encoder_));
+    if (WebPAnimEncoderAdd(encoder_, nullptr, milliseconds(end_s), nullptr) == 0)
+      fail(WebPAnimEncoderGetError(encoder_));
     struct Data : WebPData {
       Data() { WebPDataInit(this); }
       ~Data() { WebPDataClear(this); }

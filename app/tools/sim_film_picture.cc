@@ -1,6 +1,7 @@
 #include "app/tools/sim_film_picture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/nav/sectors.h"
@@ -21,6 +22,31 @@ constexpr Rgb8 kObstacleCell{200, 60, 45};
 Rgb8 cell_color(std::uint8_t type) {
   return type == kCellObstacle ? kObstacleCell : type == kCellUnoccupied ? kFreeCell : kUnknownCell;
 }
+
+// class_color() of everything that there is: every frame of a drive is tinted.
+class TintTable {
+ public:
+  TintTable() {
+    for (std::size_t row = 0; row < kRows; ++row) {
+      const auto pixel_class = static_cast<PixelClass>(row < kPixelClasses ? row : 0);
+      // Row 0: matched, but nothing concluded; those after the classes: no disparity, for a reason.
+      const int reason = row < kPixelClasses ? 0 : kPixelClasses - 1 - static_cast<int>(row);
+      for (std::size_t gray = 0; gray < 256; ++gray)
+        colors_[row][gray] =
+            class_color(pixel_class, static_cast<std::int16_t>(reason), static_cast<std::uint8_t>(gray));
+    }
+  }
+  Rgb8 at(PixelClass pixel_class, std::int16_t disparity, std::uint8_t gray) const {
+    const bool has_reason =
+        pixel_class == PixelClass::no_disparity && disparity < 0 && disparity >= -kNoDisparityReasons;
+    const int row = has_reason ? kPixelClasses - 1 - disparity : static_cast<int>(pixel_class);
+    return colors_[static_cast<std::size_t>(row)][gray];
+  }
+
+ private:
+  static constexpr std::size_t kRows = kPixelClasses + kNoDisparityReasons;
+  std::array<std::array<Rgb8, 256>, kRows> colors_{};
+};
 
 // As much of the map as matters for the next seconds.
 double shown_m(const VehicleConfig& config) {
@@ -50,14 +76,15 @@ void draw_cells(Canvas& area, const MapView& view, const NavGrid& grid) {
 }
 
 void draw_rings(Canvas& area, const MapView& view, double farthest_m) {
+  constexpr double kLabels = -0.7;  // rad
   const double step = farthest_m > 4 ? 2 : 1;
   for (double r = step; r < 1.6 * farthest_m; r += step) {
     area.line(arc_points(view.origin, r * view.scale, -1.57, 1.57), mix(kUnknownCell, kInk, 0.25), 1);
-    const Point at = view.at(r, 0);
-    if (at.y < 24) continue;
-    const Point beside{at.x + 5, at.y - 5};
-    area.text(beside, decimal(r, 0) + " m", kSmallText, kPaper, Align::left, 4);
-    area.text(beside, decimal(r, 0) + " m", kSmallText, kInk);
+    // To the right: ahead lies what is chosen.
+    const Point at = view.at(r * std::cos(kLabels), r * std::sin(kLabels));
+    if (at.x > area.width() - 40 || at.y < 20) continue;
+    area.text({at.x + 4, at.y}, decimal(r, 0) + " m", kSmallText, kPaper, Align::left, 4);
+    area.text({at.x + 4, at.y}, decimal(r, 0) + " m", kSmallText, kInk);
   }
 }
 
@@ -131,22 +158,24 @@ void draw_legends(Canvas& sheet) {
   draw_legend(sheet, {10, kLegendTop}, kPanelWidth,
               {tint("obstacle", PixelClass::obstacle), tint("floor", PixelClass::floor),
                tint("drop-off", PixelClass::drop_off), tint("overhead", PixelClass::ceiling)});
-  draw_legend(sheet, {kPanelWidth + 6, kLegendTop}, kPanelWidth,
-              {cell_item("obstacle", kObstacleCell), cell_item("free", kFreeCell), cell_item("unknown", kUnknownCell),
-               line_item("way", kChosenColor, 4, Stroke::solid), line_item("goal", kTargetColor, 2, Stroke::dashed)});
+  draw_legend(
+      sheet, {kPanelWidth + 6, kLegendTop}, kPanelWidth,
+      {cell_item("obstacle", kObstacleCell), cell_item("free", kFreeCell), cell_item("unknown", kUnknownCell),
+       line_item("way", kChosenColor, 4, Stroke::solid), line_item("goal", kTargetColor, 2, Stroke::dashed)});
 }
 
 }  // namespace
 
 Image<Rgb8> tinted_picture(const FrameResult& frame, bool has_camera) {
+  static const TintTable tints;
   Image<Rgb8> picture(frame.left.width, frame.left.height);
   const auto out = picture.view();
   const bool has_classes = same_size(frame.left, frame.classes) && same_size(frame.left, frame.disparity);
   for (int v = 0; v < out.height; ++v) {
     for (int u = 0; u < out.width; ++u) {
       const std::uint8_t gray = has_camera ? frame.left.at(u, v) : kNoCamera;
-      out.at(u, v) = has_classes ? class_color(frame.classes.at(u, v), frame.disparity.at(u, v), gray)
-                                 : Rgb8{gray, gray, gray};
+      out.at(u, v) =
+          has_classes ? tints.at(frame.classes.at(u, v), frame.disparity.at(u, v), gray) : Rgb8{gray, gray, gray};
     }
   }
   return picture;

@@ -14,9 +14,9 @@ struct FilmPicture {
   const FrameResult& frame;
   const PlanNote& plan;
   const VehicleConfig& config;
-  StatusNote status;           // the newest
-  double time_s = 0;           // since the drive began
-  bool has_camera = true;      // false: what the camera gives is noise that nobody looks at
+  StatusNote status;       // the newest
+  double time_s = 0;       // since the drive began
+  bool has_camera = true;  // false: what the camera gives is noise that nobody looks at
 };
 
 inline constexpr int kFilmWidth = 960;

@@ -21,7 +21,8 @@ std::string decision_text(const PlanNote& plan) {
 
 }  // namespace
 
-SimMoments::Kept SimMoments::keep(const FrameResult& frame, const PlanNote& plan, double time_s, const char* why) const {
+SimMoments::Kept SimMoments::keep(const FrameResult& frame, const PlanNote& plan, double time_s,
+                                  const char* why) const {
   std::string text = decision_text(plan);
   if (*why != 0) text = std::string(why) + ", " + text;
   return {samples_.size() - 1, {time_s, tinted_picture(frame, has_camera_), std::move(text)}};
@@ -59,7 +60,8 @@ DriveRecord SimMoments::record() const {
   if (samples_.empty()) return record;
   std::vector<const Kept*> chosen;
   const auto choose = [&](const Kept& kept) {
-    const bool is_there = std::ranges::any_of(chosen, [&](const Kept* other) { return other->frame == kept.frame; });
+    const bool is_there =
+        std::ranges::any_of(chosen, [&](const Kept* other) { return other->frame == kept.frame; });
     if (!is_there && chosen.size() < kMoments) chosen.push_back(&kept);
   };
   choose(spread_.front());

@@ -44,7 +44,9 @@ class SimStatus final : public sim::Onlooker {
   // `live`: stderr is a terminal.
   explicit SimStatus(bool live) : live_(live) {}
 
-  void on_turn(const StatusNote& status, const sim::VehicleState& /*vehicle*/) override { line(status.time).show(status); }
+  void on_turn(const StatusNote& status, const sim::VehicleState& /*vehicle*/) override {
+    line(status.time).show(status);
+  }
   void on_state(const StateNote& note) override { line(note.time).log(note); }
 
  private:

@@ -28,7 +28,8 @@ std::string metres(double value) {
 std::string figures_text(const RunResult& r) {
   std::string text = decimal(r.time_s, 1) + " s,  path " + metres(r.path_m);
   if (r.shortest_m > 0) text += " (shortest " + metres(r.shortest_m) + ")";
-  text += ",  nearest clearance " + metres(r.min_clearance_m) + ",  " + decimal(r.mean_speed_mps, 2) + " m/s on average";
+  text += ",  nearest clearance " + metres(r.min_clearance_m) + ",  " + decimal(r.mean_speed_mps, 2) +
+          " m/s on average";
   if (r.false_stops > 0) text += ",  " + std::to_string(r.false_stops) + " false stops";
   return text;
 }
@@ -62,20 +63,23 @@ struct Named {
 };
 
 // What a text rather does not lie on, and what gets one itself, the nearest to the way first.
-std::vector<Named> things_to_name(const CourseView& view, const sim::World& world, const RunResult& r, Labels& labels) {
+std::vector<Named> things_to_name(const CourseView& view, const sim::World& world, const RunResult& r,
+                                  Labels& labels) {
   std::vector<Named> named;
   for (const sim::Thing& thing : world.things) {
     if (thing.mesh.vertices.empty()) continue;
     const Box box = box_of(thing, r.time_s, view);
     labels.rather_free(box);
     if (look_of(thing, world.ground) == Look::wall) continue;
-    if (thing.name != r.hit) named.push_back({distance_to_way(view, r.trace, box), box, &thing.name, thing.walk.has_value()});
+    if (thing.name != r.hit)
+      named.push_back({distance_to_way(view, r.trace, box), box, &thing.name, thing.walk.has_value()});
   }
   for (const sim::GroundPatch& p : world.ground.patches) {
     if (p.dropoff) labels.rather_free(view.box(p.x0, p.y0, p.x1, p.y1));
   }
   std::ranges::stable_sort(named, {}, &Named::distance_m);
-  if (named.size() > kFewThings) std::erase_if(named, [](const Named& n) { return n.distance_m > kNear && !n.walks; });
+  if (named.size() > kFewThings)
+    std::erase_if(named, [](const Named& n) { return n.distance_m > kNear && !n.walks; });
   return named;
 }
 
@@ -86,7 +90,8 @@ void draw_north(Canvas& map, const CourseView& view, Labels& labels) {
   const Point tip = view.turned ? Point{at.x + 17, at.y} : Point{at.x, at.y - 17};
   const Point tail = view.turned ? Point{at.x - 17, at.y} : Point{at.x, at.y + 13};
   map.arrow({tail, tip}, kInk, 2.5);
-  map.text(view.turned ? Point{at.x, at.y + 22.0} : Point{at.x - 15, at.y + 2.0}, "N", kBodyText, kInk, Align::center);
+  map.text(view.turned ? Point{at.x, at.y + 22.0} : Point{at.x - 15, at.y + 2.0}, "N", kBodyText, kInk,
+           Align::center);
 }
 
 void draw_scale(Canvas& sheet, double top, double scale) {
@@ -131,7 +136,8 @@ std::string world_label(const std::string& world) {
   const bool is_file = world.find('/') != std::string::npos || world.ends_with(".yaml") || world.ends_with(".yml");
   std::string label = is_file ? std::filesystem::path(world).stem().string() : world;
   for (char& c : label) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-';
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-';
     if (!plain) c = '_';
   }
   return label.empty() || label.starts_with('.') ? "world" + label : label;

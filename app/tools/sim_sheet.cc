@@ -34,14 +34,14 @@ std::vector<Fact> figures(const sim::World& world, const RunResult& r) {
   const double detour = r.shortest_m > 0 && std::isfinite(r.shortest_m) ? r.path_m / r.shortest_m : 0;
   std::vector<Fact> facts{
       {"world", world_label(r.world) + (world.indoor ? ", indoors" : ", outdoors")},
-      {"hard about it", hard.empty() ? "-" : hard},
+      {"hard about it", hard.empty() ? "nothing" : hard},
       {"seed", std::to_string(r.seed)},
       {"sensor", r.sensor},
       {"result", ending_text(r)},
       {"time", decimal(r.time_s, 1) + " s (limit " + decimal(world.time_limit_s, 0) + " s)"},
       {"path", metres(r.path_m)},
       {"shortest", metres(r.shortest_m) + (detour > 0 ? ", driven: " + decimal(detour, 2) + " times that" : "")},
-      {"nearest clearance", metres(r.min_clearance_m)},
+      {"least clearance", metres(r.min_clearance_m)},
       {"mean speed", decimal(r.mean_speed_mps, 2) + " m/s"},
       {"false stops", std::to_string(r.false_stops)},
       {"bumps", std::to_string(r.bumps)},
@@ -98,7 +98,7 @@ Plot plot_at(int top, double end_s, double high) {
 
 void draw_axes(Canvas& sheet, const Plot& plot, const std::string& title) {
   draw_y_axis(sheet, plot, title);
-  draw_x_axis(sheet, plot, "");
+  draw_x_axis(sheet, plot, "s");
   sheet.frame(plot.box, kFaintInk);
 }
 
@@ -132,7 +132,7 @@ void draw_distances(Canvas& sheet, int top, double end_s, const DriveRecord& rec
       nearest.emplace_back();
     }
   }
-  draw_axes(sheet, plot, "as the vehicle sees it, m");
+  draw_axes(sheet, plot, "as the vehicle sees it, m (farther than " + decimal(kFarthest, 0) + " m is not shown)");
   if (clear.size() > 1) sheet.line(clear, series_color(0), 2);
   for (const auto& line : nearest) {
     if (line.size() > 1) sheet.line(line, series_color(4), 2);
@@ -176,8 +176,9 @@ void draw_states(Canvas& sheet, int top, double end_s, const DriveRecord& record
   draw_strip(sheet, top, end_s, record, [](const DriveSample& s) { return state_color(s.state); });
   const int second = top + kStripHeight + 8;
   sheet.text({kPlotLeft - 10.0, second + 15.0}, "plan", kSmallText, kInk, Align::right);
-  draw_strip(sheet, second, end_s, record,
-             [](const DriveSample& s) { return s.blocked ? kBlockedColor : Rgb8{232, 240, 248}; });
+  draw_strip(sheet, second, end_s, record, [](const DriveSample& s) {
+    return s.blocked ? kBlockedColor : Rgb8{232, 240, 248};
+  });
   std::vector<LegendItem> items;
   std::array<bool, kStates> seen{};
   for (const DriveSample& s : record.samples) {
@@ -198,10 +199,10 @@ Image<Rgb8> drive_sheet(const sim::World& world, const RunResult& result, const 
   const std::vector<Fact> facts = figures(world, result);
   const int strip_top = std::max(course.height(), 80 + static_cast<int>(facts.size()) * 22 + 40) + 10;
   const int plots_top = strip_top + strip_height(record) + 50;
-  const int states_top = plots_top + 2 * kPlotPitch - 20;
+  const int states_top = plots_top + 2 * kPlotPitch - 14;
   Canvas sheet(kWidth, states_top + 2 * kStripHeight + 60, kPaper);
 
-  sheet.paste(course.view(), {0, 0, course.width(), course.height()});
+  sheet.paste(course.view(), {kMargin - 24, 0, course.width(), course.height()});
   sheet.text({kFactsLeft, 68}, "The drive in figures", kHeadText, kInk);
   sheet.fill({kFactsLeft, 80, kWidth - kFactsLeft - kMargin, 1}, kRule);
   draw_facts(sheet, {kFactsLeft, 90, kWidth - kFactsLeft - kMargin, 0}, facts);
