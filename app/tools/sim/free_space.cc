@@ -51,12 +51,16 @@ void FreeSpace::lower(const Rect& bounds, F distance_at) {
   const int c1 = std::min(column(bounds.x1 + reach_m_), columns_ - 1);
   const int r1 = std::min(row(bounds.y1 + reach_m_), rows_ - 1);
   for (int r = std::max(row(bounds.y0 - reach_m_), 0); r <= r1; ++r) {
+    const double y = area_.y0 + (r + 0.5) * cell_m_;
+    const double dy = std::max({bounds.y0 - y, 0.0, y - bounds.y1});
     for (int c = c0; c <= c1; ++c) {
       const int cell = r * columns_ + c;
+      const double x = area_.x0 + (c + 0.5) * cell_m_;
+      const double dx = std::max({bounds.x0 - x, 0.0, x - bounds.x1});
       float& known = distance_m_[static_cast<std::size_t>(cell)];
-      const Eigen::Vector2d p = middle(cell);
-      if (distance_to_rect(bounds, p.x(), p.y()) >= static_cast<double>(known)) continue;
-      const double d = distance_at(p.x(), p.y(), static_cast<double>(ground_m_[static_cast<std::size_t>(cell)]));
+      const auto known_m = static_cast<double>(known);
+      if (dx * dx + dy * dy >= known_m * known_m) continue;  // the usual case, so no square root
+      const double d = distance_at(x, y, static_cast<double>(ground_m_[static_cast<std::size_t>(cell)]));
       known = std::min(known, static_cast<float>(d));
     }
   }

@@ -4,6 +4,8 @@
 
 #include <chrono>
 #include <cmath>
+#include <iostream>
+#include <limits>
 
 #include "app/tools/sim/free_space.h"
 #include "app/tools/sim/random.h"
