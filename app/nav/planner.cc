@@ -9,6 +9,9 @@
 namespace lakshya {
 namespace {
 
+// How far a vehicle that nothing is open to looks, in enlargements: what lies behind the next gap is not decided yet.
+constexpr double kNarrowReach = 3;
+
 bool millimetres(double metres, std::int32_t& mm) {
   if (!(metres >= 0 && metres <= kPolarMaxActiveRadiusMm / 1000.0)) return false;
   mm = static_cast<std::int32_t>(std::lround(metres * 1000));
@@ -137,10 +140,11 @@ void Planner::block_sectors(double heading_change, PlanState& state, Plan& plan)
 std::optional<double> Planner::squeeze(ImageView<const std::uint8_t> type, const PlanInput& input,
                                        Plan& plan) const {
   StarCells cells;
-  find_star_cells(type, geometry_, params_.active_radius_m, cells);
+  const double radius_m =
+      std::min(params_.active_radius_m, kNarrowReach * (vehicle_.radius_m + vehicle_.safety_distance_m));
+  find_star_cells(type, geometry_, radius_m, cells);
   Plan narrow = plan;
-  narrow.histogram =
-      star_histogram(cells, geometry_, params_.active_radius_m, vehicle_.radius_m + vehicle_.safety_distance_m / 2);
+  narrow.histogram = star_histogram(cells, geometry_, radius_m, vehicle_.radius_m + vehicle_.safety_distance_m / 2);
   narrow.binary = binary_histogram(narrow.histogram, {}, params_.threshold_high, params_.threshold_high);
   narrow.masked = mask_turning_circles(narrow.binary, type, geometry_, circles_);
   choose_sectors(type, narrow);
