@@ -110,11 +110,13 @@ Status Planner::plan(ImageView<const std::uint8_t> type, const PlanInput& input,
   if (chosen) {
     next.blocked = false;
     next.direction = *chosen;
+    be_patient(input, state, next);
     const ClearDistance clear =
         clear_distance(type, geometry_, next.direction, params_.blind_zone_m, vehicle_.radius_m);
     next.clear_distance_m = clear.metres;
     next.clear_end = clear.end;
     double speed_mps = std::min(speed_along(type, next), speed_limit(input, next));
+    if (next.waits) speed_mps = 0;
     if (next.squeezes) speed_mps = std::min(speed_mps, params_.unknown_speed_mps);
     next.speed_mps = speed_towards(next.direction, std::min(speed_mps, speed_while_turning(type, next.direction)));
     next.turn_rate_rps = turn_rate(next.direction, vehicle_.steering_gain, radians(vehicle_.max_turn_rate_dps));
@@ -156,6 +158,18 @@ std::optional<double> Planner::squeeze(ImageView<const std::uint8_t> type, const
   plan = narrow;
   plan.squeezes = true;
   return chosen;
+}
+
+void Planner::be_patient(const PlanInput& input, PlanState& state, Plan& plan) const {
+  const bool other_way = !is_vfh_ && input.previous && angle_between(plan.direction, *input.previous) > kOtherWay;
+  state.disagreements = other_way ? state.disagreements + 1 : 0;
+  if (!other_way) return;
+  if (state.disagreements > kPatience) {
+    state.disagreements = 0;
+    return;
+  }
+  plan.waits = true;
+  plan.direction = *input.previous;
 }
 
 void Planner::recover(double heading_change, PlanState& state, Plan& plan) const {

@@ -60,10 +60,17 @@ struct Recovery {
   int open_for = 0;   // plans with one
 };
 
+// A choice farther than kOtherWay from the previous one is followed only when it has been made so many times in a row; until then the
+// vehicle stands, or turns on where it was turning to. Else openings that come and go with the map's rounding, one to the left and
+// one to the right, would have it turn to and fro for ever.
+inline constexpr int kPatience = 8;
+inline constexpr double kOtherWay = radians(60);
+
 // What one frame leaves to the next. A new one starts free.
 struct PlanState {
   BinaryHistogram binary;  // of VFH+ and VFH*
   Recovery recovery;
+  int disagreements = 0;  // plans in a row that would go quite another way than the one before
 };
 
 struct Plan {
@@ -76,6 +83,7 @@ struct Plan {
 
   bool blocked = true;  // no candidate: everything below is zero, and `recovery` says where to turn on the spot
   Side recovery = Side::left;
+  bool waits = false;      // the direction is still the previous one, and the speed 0: see kPatience
   bool squeezes = false;   // nothing is open but with half of the safety distance: creeping
   bool hemmed_in = false;  // blocked, and a full turn has found nothing: better stand still
   double direction = 0;
@@ -116,6 +124,7 @@ class Planner {
   double speed_limit(const PlanInput& input, const Plan& plan) const;
   double speed_while_turning(ImageView<const std::uint8_t> type, double direction) const;
   std::optional<double> squeeze(ImageView<const std::uint8_t> type, const PlanInput& input, Plan& plan) const;
+  void be_patient(const PlanInput& input, PlanState& state, Plan& plan) const;
   void recover(double heading_change, PlanState& state, Plan& plan) const;
   double speed_along(ImageView<const std::uint8_t> type, const Plan& plan) const;
 
