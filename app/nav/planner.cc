@@ -11,6 +11,8 @@ namespace {
 
 // How far a vehicle that nothing is open to looks, in enlargements: what lies behind the next gap is not decided yet.
 constexpr double kNarrowReach = 3;
+// A turn goes on for about as many frames after a plan has ended it.
+constexpr double kCarriedTurn = 2.5;
 
 bool millimetres(double metres, std::int32_t& mm) {
   if (!(metres >= 0 && metres <= kPolarMaxActiveRadiusMm / 1000.0)) return false;
@@ -118,7 +120,8 @@ Status Planner::plan(ImageView<const std::uint8_t> type, const PlanInput& input,
     double speed_mps = std::min(speed_along(type, next), speed_limit(input, next));
     if (next.waits) speed_mps = 0;
     if (next.squeezes) speed_mps = std::min(speed_mps, params_.unknown_speed_mps);
-    next.speed_mps = speed_towards(next.direction, std::min(speed_mps, speed_while_turning(type, next.direction)));
+    next.speed_mps = speed_towards(
+        next.direction, std::min(speed_mps, speed_while_turning(type, next.direction, input.heading_change)));
     next.turn_rate_rps = turn_rate(next.direction, vehicle_.steering_gain, radians(vehicle_.max_turn_rate_dps));
     next.wheels = wheel_speeds(next.speed_mps, next.turn_rate_rps, vehicle_.track_m);
   }
@@ -202,14 +205,18 @@ std::optional<double> Planner::choose(ImageView<const std::uint8_t> type, const 
                               input.target_distance_m, costs_of(params_), star);
 }
 
-// A vehicle that is still turning towards its direction sweeps what lies between: it goes no faster than straight ahead and half
-// way allow. One that cannot turn on the spot has its turning circles masked, and would get stuck by this.
-double Planner::speed_while_turning(ImageView<const std::uint8_t> type, double direction) const {
+// A vehicle that is still turning towards its direction sweeps what lies between, and goes on for a while with the turn that it is
+// in: it goes no faster than straight ahead, half way and there allow. One that cannot turn on the spot has its turning circles
+// masked, and would get stuck by this.
+double Planner::speed_while_turning(ImageView<const std::uint8_t> type, double direction,
+                                    double heading_change) const {
   if (params_.turning_radius_m > 0) return vehicle_.max_speed_mps;
   double least = vehicle_.max_speed_mps;
-  for (const double swept : {0.0, direction / 2})
-    least =
-        std::min(least, governed_speed(corridor_obstacle_m(type, geometry_, swept, vehicle_.radius_m), governor_));
+  const double carried = std::clamp(kCarriedTurn * heading_change, -radians(90), radians(90));
+  for (const double swept : {0.0, direction / 2, carried}) {
+    const double obstacle_m = corridor_obstacle_m(type, geometry_, swept, vehicle_.radius_m);
+    least = std::min(least, governed_speed(obstacle_m, governor_));
+  }
   return least;
 }
 

@@ -122,7 +122,7 @@ class Planner {
   void choose_sectors(ImageView<const std::uint8_t> type, Plan& plan) const;
   std::optional<double> choose(ImageView<const std::uint8_t> type, const PlanInput& input, const Plan& plan) const;
   double speed_limit(const PlanInput& input, const Plan& plan) const;
-  double speed_while_turning(ImageView<const std::uint8_t> type, double direction) const;
+  double speed_while_turning(ImageView<const std::uint8_t> type, double direction, double heading_change) const;
   std::optional<double> squeeze(ImageView<const std::uint8_t> type, const PlanInput& input, Plan& plan) const;
   void be_patient(const PlanInput& input, PlanState& state, Plan& plan) const;
   void recover(double heading_change, PlanState& state, Plan& plan) const;
