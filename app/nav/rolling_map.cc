@@ -349,9 +349,23 @@ Status RollingMap::view(ImageView<const std::uint8_t> frame, ImageView<std::uint
       out[c] = memory_.evidence[v * side + u] == kFree ? kCellUnoccupied : kCellUnknown;
     }
   }
+  const auto mark = [&](std::int64_t row, std::int64_t column) {
+    const std::int64_t r = row >> kFraction;
+    const std::int64_t c = column >> kFraction;
+    if (r >= 0 && c >= 0 && r < geometry_.rows && c < geometry_.cols)
+      type.at(static_cast<int>(c), static_cast<int>(r)) = kCellObstacle;
+  };
+  const std::size_t line = static_cast<std::size_t>(side_);
+  const std::size_t cells = line * line;
   visit_below(sight, [&](std::size_t i, std::int64_t row, std::int64_t column) {
-    if (memory_.evidence[i] >= kFree + kBelieved)
-      type.at(static_cast<int>(column >> kFraction), static_cast<int>(row >> kFraction)) = kCellObstacle;
+    if (memory_.evidence[i] < kFree + kBelieved) return;
+    mark(row, column);
+    // Its neighbours to the east, west, north and south.
+    const std::size_t x = i % line;
+    if (memory_.evidence[x + 1 == line ? i + 1 - line : i + 1] == 0) mark(row - y_step, column + x_step);
+    if (memory_.evidence[x == 0 ? i + line - 1 : i - 1] == 0) mark(row + y_step, column - x_step);
+    if (memory_.evidence[i + line >= cells ? i + line - cells : i + line] == 0) mark(row + x_step, column + y_step);
+    if (memory_.evidence[i < line ? i + cells - line : i - line] == 0) mark(row - x_step, column - y_step);
   });
   return Status::ok;
 }

@@ -84,7 +84,8 @@ class RollingMap {
   Status add(const NavGrid& frame, const MapPose& at);
 
   // The map as seen from the pose of the last add(): cells of CellType, forward half-plane. Every believed obstacle marks the
-  // cell that holds its centre; all others ask the world cell below their own centre, and are unknown where that is an obstacle.
+  // cell that holds its centre, and so do those of its four neighbours that were never seen: a face has something behind it. All
+  // others ask the world cell below their own centre, and are unknown where that is an obstacle.
   // Beyond the square's edge `frame` counts alone. size_mismatch; bad_argument: nothing was added yet.
   Status view(ImageView<const std::uint8_t> frame, ImageView<std::uint8_t> type) const;
 
