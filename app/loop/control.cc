@@ -124,7 +124,9 @@ bool Control::find_goal() {
   const Pose pose{pose_.east_m, pose_.north_m, pose_.yaw};
   way_point_ = next_way_point(way_points_, way_point_, pose, config_.mission.arrival_m);
   if (way_point_ >= way_points_.size()) return false;
-  target_ = view_way_point(pose, way_points_[way_point_]).direction;
+  const WayPointView view = view_way_point(pose, way_points_[way_point_]);
+  target_ = view.direction;
+  target_m_ = view.distance_m;
   return true;
 }
 
@@ -170,7 +172,7 @@ WheelVelocities Control::wanted(Action action) const {
   if (plan_->blocked) {
     // A turn on the spot sweeps no new ground, but only a vehicle that stands turns on the spot.
     const bool stands = wheels_.left_mps + wheels_.right_mps == 0;
-    rate = stands ? config_.loop.recovery_turn_dps * kRadiansPerDegree : 0;
+    rate = stands && !plan_->hemmed_in ? config_.loop.recovery_turn_dps * kRadiansPerDegree : 0;
     if (plan_->recovery == Side::right) rate = -rate;
   } else {
     rate = turn_rate(direction_now(), v.steering_gain, v.max_turn_rate_dps * kRadiansPerDegree);
@@ -229,7 +231,7 @@ bool Control::has_ended() const {
 }
 
 void Control::tell(Nanoseconds now) {
-  exchange_->nav.writing() = {pose_, target_, history_};
+  exchange_->nav.writing() = {pose_, target_, history_, target_m_};
   (void)exchange_->nav.publish();
   for (const StateNote& note : machine_.notes())
     (void)exchange_->notes.push(note);

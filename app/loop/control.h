@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -91,6 +92,7 @@ class Control {
   PoseHistory history_;
   std::size_t way_point_ = 0;
   double target_ = 0;
+  double target_m_ = std::numeric_limits<double>::infinity();
   bool has_goal_ = false;
 
   std::optional<Nanoseconds> last_turn_;

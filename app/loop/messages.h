@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
 
 #include "app/loop/pose_history.h"
 #include "app/loop/ring.h"
@@ -52,6 +53,7 @@ struct NavNote {
   PoseSample pose;
   double target = 0;  // rad, from straight ahead of that pose
   PoseHistory history;
+  double target_m = std::numeric_limits<double>::infinity();  // how far it is
 };
 
 // Perception to control: what a pair gave.
@@ -67,7 +69,8 @@ struct PlanNote {
   double target = 0;     // and where to
   bool blocked = true;
   Side recovery = Side::left;
-  double direction = 0;  // rad, from straight ahead of that pose
+  bool hemmed_in = false;  // blocked, and turning round has not helped
+  double direction = 0;    // rad, from straight ahead of that pose
   double clear_m = 0;
   ClearEnd clear_end = ClearEnd::unknown;
   double speed_mps = 0;

@@ -35,9 +35,10 @@ void Perception::warm_up() {
   }
 }
 
-PlanInput Perception::input(const PlanNote& plan) const {
+PlanInput Perception::input(const PlanNote& plan, double target_m) const {
   const double turned = wrapped_angle(plan.pose.yaw - planned_yaw_);
   PlanInput input{.target = plan.target,
+                  .target_distance_m = target_m,
                   .heading_change = turned,
                   .pose = MapPose{{plan.pose.east_m, plan.pose.north_m, plan.pose.yaw}, plan.taken}};
   if (has_direction_) input.previous = wrapped_angle(direction_ - turned);
@@ -48,6 +49,7 @@ void Perception::describe(PlanNote& plan) const {
   const Plan& p = result_.plan;
   plan.blocked = p.blocked;
   plan.recovery = p.recovery;
+  plan.hemmed_in = p.hemmed_in;
   plan.direction = p.direction;
   plan.clear_m = p.clear_distance_m;
   plan.clear_end = p.clear_end;
@@ -72,7 +74,7 @@ bool Perception::step(PlanNote& plan) {
   plan.target = wrapped_angle(nav.target + nav.pose.yaw - plan.pose.yaw);
   exchange_->looked_at.store(raw.number, std::memory_order_release);
   exchange_->working_since.store(plan.started, std::memory_order_release);
-  plan.status = pipeline_->process(raw.left, raw.right, input(plan), result_);
+  plan.status = pipeline_->process(raw.left, raw.right, input(plan, nav.target_m), result_);
   if (plan.status == Status::ok) {
     describe(plan);
     planned_yaw_ = plan.pose.yaw;

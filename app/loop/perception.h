@@ -37,7 +37,7 @@ class Perception {
   const StageTimes& times() const { return pipeline_->times(); }
 
  private:
-  PlanInput input(const PlanNote& plan) const;
+  PlanInput input(const PlanNote& plan, double target_m) const;
   void describe(PlanNote& plan) const;
 
   const VehicleConfig* config_;

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kMostCells = 1e8;
 constexpr double kNanosecond = 1e-9;
+constexpr std::size_t kThickness = 2;
 constexpr std::uint8_t kFree = 1;  // evidence
 
 std::int64_t cell_of(double cells) {
@@ -360,12 +361,23 @@ Status RollingMap::view(ImageView<const std::uint8_t> frame, ImageView<std::uint
   visit_below(sight, [&](std::size_t i, std::int64_t row, std::int64_t column) {
     if (memory_.evidence[i] < kFree + kBelieved) return;
     mark(row, column);
-    // Its neighbours to the east, west, north and south.
     const std::size_t x = i % line;
-    if (memory_.evidence[x + 1 == line ? i + 1 - line : i + 1] == 0) mark(row - y_step, column + x_step);
-    if (memory_.evidence[x == 0 ? i + line - 1 : i - 1] == 0) mark(row + y_step, column - x_step);
-    if (memory_.evidence[i + line >= cells ? i + line - cells : i + line] == 0) mark(row + x_step, column + y_step);
-    if (memory_.evidence[i < line ? i + cells - line : i - line] == 0) mark(row - x_step, column - y_step);
+    const std::size_t y = i - x;
+    // Eastwards, westwards, northwards, southwards, until something is known.
+    const auto behind = [&](std::size_t cell, std::size_t count, std::int64_t r, std::int64_t c) {
+      if (memory_.evidence[cell] != 0) return false;
+      const auto n = static_cast<std::int64_t>(count);
+      mark(row + n * r, column + n * c);
+      return true;
+    };
+    for (std::size_t n = 1; n <= kThickness && behind(y + (x + n) % line, n, -y_step, x_step); ++n) {
+    }
+    for (std::size_t n = 1; n <= kThickness && behind(y + (x + line - n) % line, n, y_step, -x_step); ++n) {
+    }
+    for (std::size_t n = 1; n <= kThickness && behind((i + n * line) % cells, n, x_step, y_step); ++n) {
+    }
+    for (std::size_t n = 1; n <= kThickness && behind((i + cells - n * line) % cells, n, -x_step, -y_step); ++n) {
+    }
   });
   return Status::ok;
 }

@@ -87,13 +87,20 @@ TEST(LookAlong, UnknownCellsInTheBlindZoneArePassedOver) {
   EXPECT_TRUE(world.look(0, 0.6).seen);
 }
 
-TEST(LookAlong, AnUnknownCellAfterAKnownOneIsNotPassedOver) {
+// A rolling map remembers cells in the blind zone, not all of them.
+TEST(LookAlong, UnknownCellsBetweenKnownOnesOfTheBlindZoneArePassedOver) {
   World world(kCellUnoccupied);
   world.rows(0, 2, kCellUnknown);
-  world.rows(3, 4, kCellUnknown);
+  world.rows(3, 5, kCellUnknown);
+  EXPECT_TRUE(world.look(0).seen);
+  EXPECT_NEAR(world.look(0).clear_m, 4.0, 1e-9);
+  world.rows(5, 6, kCellUnknown);  // what follows is no longer in the blind zone
   EXPECT_TRUE(world.look(0).seen);
   EXPECT_NEAR(world.look(0).clear_m, 0.3, 1e-9);
   EXPECT_EQ(world.look(0).end, ClearEnd::unknown);
+  world.rows(4, 5, kCellObstacle);
+  EXPECT_NEAR(world.look(0).clear_m, 0.4, 1e-9);
+  EXPECT_EQ(world.look(0).end, ClearEnd::obstacle);
 }
 
 TEST(LookAlong, AnObstacleInTheBlindZoneEndsIt) {
