@@ -40,7 +40,10 @@ struct MadeFrame {
       plan.nearest_m = i == 25 ? 0.4 : 2;
       sim::Shot shot;
       shot.time_s = i * 0.1;
-      onlooker.on_turn({.time = i * 100 * kMillisecond, .state = State::run}, {});
+      StatusNote status;
+      status.time = i * 100 * kMillisecond;
+      status.state = State::run;
+      onlooker.on_turn(status, {});
       onlooker.on_frame(frame, plan, shot);
     }
   }

