@@ -29,6 +29,8 @@ enum class Look : std::uint8_t {
 inline constexpr std::size_t kLooks = 11;
 
 Look look_of(const sim::Thing& thing, const sim::Ground& ground);
+// A ceiling, which would hide everything: not drawn. Nor is what has no shape.
+bool is_left_out(const sim::Thing& thing, const sim::Ground& ground);
 LegendItem legend_of(Look look);
 
 // A rectangle of the world frame, metres.

@@ -238,6 +238,11 @@ Look look_of(const Thing& thing, const sim::Ground& ground) {
   return Look::other;
 }
 
+bool is_left_out(const Thing& thing, const sim::Ground& ground) {
+  constexpr double kOverAll = 2.2;  // m above the ground
+  return thing.mesh.vertices.empty() || (thing.expect == sim::Expect::free && lift_of(thing, ground) > kOverAll);
+}
+
 LegendItem legend_of(Look look) {
   const Style& style = style_of(look);
   return {style.text, [&style](Canvas& canvas, const Box& swatch) {
@@ -278,8 +283,9 @@ DrawnWorld draw_world(Canvas& map, const CourseView& view, const sim::World& wor
     draw_patch(map, view, patch);
   drawn.ground = ground_legend(ground);
   std::vector<std::pair<Look, const Thing*>> things;
-  for (const Thing& thing : world.things)
-    things.emplace_back(look_of(thing, ground), &thing);
+  for (const Thing& thing : world.things) {
+    if (!is_left_out(thing, ground)) things.emplace_back(look_of(thing, ground), &thing);
+  }
   std::ranges::stable_sort(things, {}, [](const auto& item) { return item.first; });
   for (const auto& [look, thing] : things) {
     const Box box = box_of(*thing, seconds, view);

@@ -67,7 +67,7 @@ std::vector<Named> things_to_name(const CourseView& view, const sim::World& worl
                                   Labels& labels) {
   std::vector<Named> named;
   for (const sim::Thing& thing : world.things) {
-    if (thing.mesh.vertices.empty()) continue;
+    if (is_left_out(thing, world.ground)) continue;
     const Box box = box_of(thing, r.time_s, view);
     labels.rather_free(box);
     if (look_of(thing, world.ground) == Look::wall) continue;

@@ -129,7 +129,7 @@ TEST(CoursePicture, WhatHangsAndWhatIsFreeLooksDifferent) {
 }
 
 // One thing of two bodies: the wall beside a door, and the lintel over it.
-TEST(CoursePicture, DoorsAreOpenFromAbove) {
+TEST(CoursePicture, DoorsAreOpenFromAboveAndCeilingsAreNotThere) {
   World world = room();
   Thing door = box("doorway", {2, 3, 0}, {3, 4, 2});
   const Thing lintel = box("doorway", {3, 3, 2}, {4, 4, 2.5F});
@@ -139,7 +139,9 @@ TEST(CoursePicture, DoorsAreOpenFromAbove) {
     door.mesh.triangles.push_back(t);
   }
   door.mesh.vertices.insert(door.mesh.vertices.end(), lintel.mesh.vertices.begin(), lintel.mesh.vertices.end());
-  world.things = {door};
+  Thing ceiling = box("ceiling", {0, 0, 2.5F}, {10, 6, 2.5F});
+  ceiling.expect = sim::Expect::free;
+  world.things = {door, ceiling};
   const CourseView view = course_view(world, drive(100), 1000, 900);
   Canvas map(view.width(), view.height(), kPaper);
   draw_world(map, view, world, 0);
