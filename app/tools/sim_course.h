@@ -82,7 +82,10 @@ class Labels {
   std::vector<Box> avoided_;
 };
 
-// Floor, patches, things. `seconds`: when the drive ended, for what walks. Gives what was drawn, for the legend.
+// Floor and patches; gives the legend of those that are in the picture.
+std::vector<LegendItem> draw_ground(Canvas& map, const CourseView& view, const sim::World& world);
+
+// Ground and things. `seconds`: when the drive ended, for what walks. Gives what was drawn, for the legend.
 struct DrawnWorld {
   std::set<Look> looks;
   std::vector<LegendItem> ground;

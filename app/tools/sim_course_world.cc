@@ -13,21 +13,12 @@
 namespace lakshya {
 namespace {
 
-using sim::GroundPatch;
 using sim::Place;
 using sim::Thing;
 
 constexpr double kHeadroom = 1.2;  // m; parts of a thing that begin higher do not stand in the way
 constexpr double kLifted = 0.1;    // m above the ground: it hangs
 
-constexpr Rgb8 kIndoorFloor{246, 243, 237};
-constexpr Rgb8 kOutdoorGround{232, 238, 222};
-constexpr Rgb8 kLevelPatch{238, 226, 200};
-constexpr Rgb8 kRampLow{240, 226, 196};
-constexpr Rgb8 kRampHigh{214, 176, 120};
-constexpr Rgb8 kKerb{150, 146, 140};
-constexpr Rgb8 kDropOff{52, 30, 58};
-constexpr Rgb8 kDropOffHatch{150, 90, 150};
 constexpr Rgb8 kWalkColor{170, 60, 130};
 
 struct Style {
@@ -154,72 +145,6 @@ void draw_walk(Canvas& map, const CourseView& view, const Thing& thing, double s
   draw_footprint(map, footprint(thing, end, 0, view), style_of(Look::person));
 }
 
-// ---- the ground
-
-bool is_ramp(const GroundPatch& p) {
-  return !p.dropoff && !p.obstacle && (p.slope_x != 0 || p.slope_y != 0);
-}
-
-void draw_ramp(Canvas& map, const CourseView& view, const GroundPatch& p) {
-  constexpr int kStrips = 24;
-  const bool along_x = std::abs(p.slope_x) >= std::abs(p.slope_y);
-  const bool rises = along_x ? p.slope_x > 0 : p.slope_y > 0;
-  for (int i = 0; i < kStrips; ++i) {
-    const double from = static_cast<double>(i) / kStrips;
-    const double to = (i + 1.0) / kStrips;
-    const Rgb8 color = mix(kRampLow, kRampHigh, rises ? from : 1 - from);
-    const double w = p.x1 - p.x0;
-    const double h = p.y1 - p.y0;
-    map.fill(along_x ? view.box(p.x0 + from * w, p.y0, p.x0 + to * w, p.y1)
-                     : view.box(p.x0, p.y0 + from * h, p.x1, p.y0 + to * h),
-             color);
-  }
-  const Point low{along_x ? (rises ? p.x0 : p.x1) : 0, along_x ? 0 : (rises ? p.y0 : p.y1)};
-  const Point high{along_x ? (rises ? p.x1 : p.x0) : 0, along_x ? 0 : (rises ? p.y1 : p.y0)};
-  for (const double across : {0.2, 0.8}) {
-    const double x = p.x0 + across * (p.x1 - p.x0);
-    const double y = p.y0 + across * (p.y1 - p.y0);
-    const auto at = [&](double share) {
-      return along_x ? view.at(low.x + share * (high.x - low.x), y) : view.at(x, low.y + share * (high.y - low.y));
-    };
-    map.arrow({at(0.15), at(0.85)}, {130, 92, 44}, 1.5);
-  }
-}
-
-LegendItem framed_item(const std::string& text, Rgb8 color, bool hatched) {
-  return {text, [=](Canvas& canvas, const Box& swatch) {
-            canvas.fill(swatch, color);
-            if (hatched) canvas.hatch(swatch, kDropOffHatch, 7);
-            canvas.frame(swatch, kFaintInk);
-          }};
-}
-
-void draw_patch(Canvas& map, const CourseView& view, const GroundPatch& p) {
-  const Box box = view.box(p.x0, p.y0, p.x1, p.y1);
-  if (p.dropoff) {
-    map.fill(box, kDropOff);
-    map.hatch(box, kDropOffHatch, 9);
-  } else if (p.obstacle) {
-    map.fill(box, kKerb);
-  } else if (is_ramp(p)) {
-    draw_ramp(map, view, p);
-  } else {
-    map.fill(box, p.height_m == 0 ? kLevelPatch : mix(kRampLow, kRampHigh, 0.8));
-  }
-  map.frame(box, mix(kFaintInk, kPaper, p.height_m == 0 && !p.dropoff ? 0.6 : 0.0));
-}
-
-std::vector<LegendItem> ground_legend(const sim::Ground& ground) {
-  const auto any = [&](auto is) { return std::ranges::any_of(ground.patches, is); };
-  std::vector<LegendItem> items;
-  if (any(is_ramp)) items.push_back(framed_item("ramp, arrows uphill", mix(kRampLow, kRampHigh, 0.6), false));
-  if (any([](const GroundPatch& p) { return !p.dropoff && !p.obstacle && !is_ramp(p) && p.height_m != 0; }))
-    items.push_back(framed_item("platform", mix(kRampLow, kRampHigh, 0.8), false));
-  if (any([](const GroundPatch& p) { return p.obstacle; })) items.push_back(framed_item("kerb", kKerb, false));
-  if (any([](const GroundPatch& p) { return p.dropoff; })) items.push_back(framed_item("drop-off", kDropOff, true));
-  return items;
-}
-
 }  // namespace
 
 Look look_of(const Thing& thing, const sim::Ground& ground) {
@@ -277,11 +202,7 @@ Box box_of(const Thing& thing, double seconds, const CourseView& view) {
 DrawnWorld draw_world(Canvas& map, const CourseView& view, const sim::World& world, double seconds) {
   DrawnWorld drawn;
   const sim::Ground& ground = world.ground;
-  map.fill({0, 0, map.width(), map.height()}, kOutsideMap);
-  map.fill(view.box(ground.x0, ground.y0, ground.x1, ground.y1), world.indoor ? kIndoorFloor : kOutdoorGround);
-  for (const GroundPatch& patch : ground.patches)
-    draw_patch(map, view, patch);
-  drawn.ground = ground_legend(ground);
+  drawn.ground = draw_ground(map, view, world);
   std::vector<std::pair<Look, const Thing*>> things;
   for (const Thing& thing : world.things) {
     if (!is_left_out(thing, ground)) things.emplace_back(look_of(thing, ground), &thing);
