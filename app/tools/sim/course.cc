@@ -10,11 +10,11 @@
 namespace lakshya::sim {
 namespace {
 
-constexpr double kStartClear_m = 0.92;
-constexpr double kGoalClear_m = 0.82;
-constexpr double kLeastGap_m = 2 * kWayRadius_m;
-constexpr double kMostGap_m = 1.75;     // 2.5 vehicle widths: wider and nobody needs to steer
-constexpr double kAgainstWall_m = 0.3;  // no one tries to get through there
+constexpr double kStartClearM = 0.92;
+constexpr double kGoalClearM = 0.82;
+constexpr double kLeastGapM = 2 * kWayRadiusM;
+constexpr double kMostGapM = 1.75;     // 2.5 vehicle widths: wider and nobody needs to steer
+constexpr double kAgainstWallM = 0.3;  // no one tries to get through there
 
 }  // namespace
 
@@ -47,18 +47,18 @@ bool Course::begin(double cell_m) {
     all = {std::min(all.x0, r.x0), std::min(all.y0, r.y0), std::max(all.x1, r.x1), std::max(all.y1, r.y1)};
     area_m2_ += (r.x1 - r.x0) * (r.y1 - r.y0);
   }
-  space_.emplace(world_.ground, all, cell_m, kWayRadius_m + 0.02);
+  space_.emplace(world_.ground, all, cell_m, kWayRadiusM + 0.02);
   for (const Thing& thing : world_.things)
     space_->add(thing);
-  way_ = space_->path(start(), world_.goals.front(), kWayRadius_m);
+  way_ = space_->path(start(), world_.goals.front(), kWayRadiusM);
   return !way_.empty();
 }
 
 bool Course::fits(const Footprint& footprint, bool close, int beside) {
   if (footprint.empty()) return false;
   if (std::none_of(rooms_.begin(), rooms_.end(), [&](const Rect& r) { return inside(footprint, r); })) return false;
-  if (distance_to(footprint, start()) < kStartClear_m) return false;
-  if (distance_to(footprint, world_.goals.front()) < kGoalClear_m) return false;
+  if (distance_to(footprint, start()) < kStartClearM) return false;
+  if (distance_to(footprint, world_.goals.front()) < kGoalClearM) return false;
   for (const Clear& c : clear_) {
     if (distance_to(footprint, c.point) < c.radius_m) return false;
   }
@@ -66,17 +66,17 @@ bool Course::fits(const Footprint& footprint, bool close, int beside) {
   for (const Known& known : things_) {
     if (beside >= 0 && known.thing == beside) continue;
     const double gap = gap_between(footprint, known.footprint);
-    if (gap < kLeastGap_m) return false;
+    if (gap < kLeastGapM) return false;
     nearest = std::min(nearest, gap);
   }
   // Few gaps to a wall are neither a way nor closed.
   const bool any_gap = random_.chance(0.15);
   for (const Footprint& wall : boundary_) {
     const double gap = gap_between(footprint, wall);
-    if (gap <= 0 || (!any_gap && gap > kAgainstWall_m && gap < kLeastGap_m)) return false;
+    if (gap <= 0 || (!any_gap && gap > kAgainstWallM && gap < kLeastGapM)) return false;
     nearest = std::min(nearest, gap);
   }
-  return !close || nearest <= kMostGap_m;
+  return !close || nearest <= kMostGapM;
 }
 
 bool Course::is_on_way(const Footprint& footprint) const {
@@ -84,7 +84,7 @@ bool Course::is_on_way(const Footprint& footprint) const {
   for (std::size_t i = 1; i < way_.size(); ++i) {
     const Eigen::Vector2d leg = way_[i] - way_[i - 1];
     for (int k = 0; k <= kPieces; ++k) {
-      if (distance_to(footprint, way_[i - 1] + leg * (static_cast<double>(k) / kPieces)) < kWayRadius_m + 0.15)
+      if (distance_to(footprint, way_[i - 1] + leg * (static_cast<double>(k) / kPieces)) < kWayRadiusM + 0.15)
         return true;
     }
   }
@@ -96,9 +96,9 @@ bool Course::place(Thing thing, bool close, int beside) {
   if (!fits(footprint, close, beside)) return false;
   FreeSpace with = *space_;
   with.add(thing);
-  if (!with.connected(start(), world_.goals.front(), kWayRadius_m)) return false;
+  if (!with.connected(start(), world_.goals.front(), kWayRadiusM)) return false;
   space_ = std::move(with);
-  if (is_on_way(footprint)) way_ = space_->path(start(), world_.goals.front(), kWayRadius_m);
+  if (is_on_way(footprint)) way_ = space_->path(start(), world_.goals.front(), kWayRadiusM);
   things_.push_back({footprint, static_cast<int>(world_.things.size()), false});
   add(std::move(thing));
   return true;
@@ -132,13 +132,13 @@ Eigen::Vector2d Course::on_the_way(double aside) {
 }
 
 std::optional<Walk> Course::crossing_walk() {
-  constexpr double kRoom_m = 0.4;  // he keeps this from things
+  constexpr double kRoomM = 0.4;  // he keeps this from things
   for (int attempt = 0; attempt < 60; ++attempt) {
     const Eigen::Vector2d middle = on_the_way(0);
     const double angle = random_.uniform(0, 2 * std::numbers::pi);
     const Eigen::Vector2d along{std::cos(angle), std::sin(angle)};
     const auto may_be = [&](const Eigen::Vector2d& p) {
-      return space_->fits(p.x(), p.y(), kRoom_m) && (p - start()).norm() > 2.2 &&
+      return space_->fits(p.x(), p.y(), kRoomM) && (p - start()).norm() > 2.2 &&
              (p - world_.goals.front()).norm() > 1.5;
     };
     if (!may_be(middle)) continue;
@@ -164,7 +164,7 @@ int Course::on_the_straight_line() const {
   for (const Known& known : things_) {
     if (known.driven) continue;
     for (int k = 0; k <= 200; ++k) {
-      if (distance_to(known.footprint, start() + line * (k / 200.0)) < kRobotRadius_m) {
+      if (distance_to(known.footprint, start() + line * (k / 200.0)) < kRobotRadiusM) {
         ++count;
         break;
       }

@@ -66,8 +66,8 @@ void add_chair_to_table(Course& course) {
   Random& random = course.random();
   const Thing& table_thing = course.world().things.back();
   const Footprint f = footprint_of(table_thing);
-  const Eigen::Vector2d a = f[0];
-  const Eigen::Vector2d b = f[1];
+  const Eigen::Vector2d& a = f[0];
+  const Eigen::Vector2d& b = f[1];
   const Eigen::Vector2d middle = (a + b) / 2;
   const Eigen::Vector2d out = Eigen::Vector2d((b - a).y(), -(b - a).x()).normalized();
   const Eigen::Vector2d at = middle + out * random.uniform(0.05, 0.3);

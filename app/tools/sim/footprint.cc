@@ -9,7 +9,7 @@
 namespace lakshya::sim {
 namespace {
 
-constexpr float kHighest_m = 1.5F;  // a lamp's shade must not stand in a wall; a tree's crown may reach over it
+constexpr float kHighestM = 1.5F;  // a lamp's shade must not stand in a wall; a tree's crown may reach over it
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
@@ -69,7 +69,7 @@ Footprint footprint_of(const Thing& thing) {
       low = std::min(low, thing.mesh.vertices[v].z());
       high = std::max(high, thing.mesh.vertices[v].z());
     }
-    if (high < static_cast<float>(kLowest_m) || low > kHighest_m) continue;
+    if (high < static_cast<float>(kLowestM) || low > kHighestM) continue;
     for (const std::uint32_t v : triangle)
       points.emplace_back(thing.mesh.vertices[v].head<2>().cast<double>());
   }

@@ -13,7 +13,7 @@ using Footprint = std::vector<Eigen::Vector2d>;  // convex, counter-clockwise
 
 Footprint hull_of(std::vector<Eigen::Vector2d> points);
 Footprint footprint_of(const Rect& rect);
-// Of the triangles between kLowest_m and 1.5 m; empty where there are none.
+// Of the triangles between kLowestM and 1.5 m; empty where there are none.
 Footprint footprint_of(const Thing& thing);
 
 double distance_to(const Footprint& footprint, const Eigen::Vector2d& p);  // 0 inside

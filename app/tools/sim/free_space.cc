@@ -75,7 +75,7 @@ void FreeSpace::add(const Thing& thing) {
     const Eigen::Vector3d low = a.cwiseMin(b).cwiseMin(c);
     const Eigen::Vector3d high = a.cwiseMax(b).cwiseMax(c);
     lower({low.x(), low.y(), high.x(), high.y()}, [&](double x, double y, double ground) {
-      return distance_to_triangle(a, b, c, x, y, ground + kLowest_m, ground + kClearance_m);
+      return distance_to_triangle(a, b, c, x, y, ground + kLowestM, ground + kClearanceM);
     });
   }
 }
@@ -88,7 +88,8 @@ int FreeSpace::cell_at(double x, double y) const {
 }
 
 Eigen::Vector2d FreeSpace::middle(int cell) const {
-  return {area_.x0 + (cell % columns_ + 0.5) * cell_m_, area_.y0 + (cell / columns_ + 0.5) * cell_m_};
+  const int row = cell / columns_;
+  return {area_.x0 + (cell % columns_ + 0.5) * cell_m_, area_.y0 + (row + 0.5) * cell_m_};
 }
 
 double FreeSpace::distance(double x, double y) const {
@@ -135,7 +136,7 @@ std::vector<std::uint8_t> FreeSpace::reached(int from, int to, double radius_m) 
       const int c = cell % columns_ + kSteps[i].dx;
       const int r = cell / columns_ + kSteps[i].dy;
       if (c < 0 || r < 0 || c >= columns_ || r >= rows_) continue;
-      const auto next = static_cast<std::size_t>(r * columns_ + c);
+      const std::size_t next = index(c, r);
       if (seen[next] != 0 || distance_m_[next] < radius) continue;
       seen[next] = 1;
       open.push_back(static_cast<int>(next));
@@ -175,8 +176,7 @@ std::vector<int> FreeSpace::cells_on_the_way(int from, int to, double radius_m) 
     const float so_far = cost[static_cast<std::size_t>(cell)];
     if (estimate > so_far + rest(cell) + 1e-3F) continue;  // a better way was found since
     const auto free_at = [&](int c, int r) {
-      return c >= 0 && r >= 0 && c < columns_ && r < rows_ &&
-             distance_m_[static_cast<std::size_t>(r * columns_ + c)] >= radius;
+      return c >= 0 && r >= 0 && c < columns_ && r < rows_ && distance_m_[index(c, r)] >= radius;
     };
     for (const Step& s : kSteps) {
       const int c = cell % columns_ + s.dx;
@@ -185,7 +185,7 @@ std::vector<int> FreeSpace::cells_on_the_way(int from, int to, double radius_m) 
       // A long step passes between two cells; both count.
       if (std::abs(s.dx) == 2 && !(free_at(c - s.dx / 2, r) && free_at(c - s.dx / 2, r - s.dy))) continue;
       if (std::abs(s.dy) == 2 && !(free_at(c, r - s.dy / 2) && free_at(c - s.dx, r - s.dy / 2))) continue;
-      const auto next = static_cast<std::size_t>(r * columns_ + c);
+      const std::size_t next = index(c, r);
       const float total = so_far + std::hypot(static_cast<float>(s.dx), static_cast<float>(s.dy));
       if (total >= cost[next]) continue;
       cost[next] = total;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -13,7 +14,7 @@
 
 namespace lakshya::sim {
 
-inline constexpr double kLowest_m = 0.05;  // what is lower is driven over
+inline constexpr double kLowestM = 0.05;  // what is lower is driven over
 
 class FreeSpace {
  public:
@@ -37,6 +38,9 @@ class FreeSpace {
 
  private:
   int cell_at(double x, double y) const;  // -1 outside
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+  }
   Eigen::Vector2d middle(int cell) const;
   std::vector<std::uint8_t> reached(int from, int to, double radius_m) const;
   std::vector<int> cells_on_the_way(int from, int to, double radius_m) const;

@@ -104,7 +104,7 @@ bool jumps(const Ground& ground, const Eigen::Vector2d& at, const Eigen::Vector2
   for (const GroundPatch* p : {pi, po}) {
     if (p != nullptr && (p->dropoff || p->obstacle)) return false;  // counted as areas
   }
-  return std::abs(ground_height(ground, in.x(), in.y()) - ground_height(ground, out.x(), out.y())) > kStep_m;
+  return std::abs(ground_height(ground, in.x(), in.y()) - ground_height(ground, out.x(), out.y())) > kStepM;
 }
 
 // The pieces of one edge at which the ground jumps. Heights are piecewise linear along it, so between the corners of patches there

@@ -9,7 +9,7 @@
 namespace lakshya::sim {
 
 // A step of more than this is no ground to drive over.
-inline constexpr double kStep_m = 0.05;
+inline constexpr double kStepM = 0.05;
 
 struct Rect {
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // x0 < x1, y0 < y1
@@ -28,7 +28,7 @@ void add_kerb(Ground& ground, const Rect& rect, double height_m, const Surface& 
 // Level, of another surface: a path through grass.
 void add_path(Ground& ground, const Rect& rect, const Surface& surface);
 
-// A place where the ground jumps by more than kStep_m, between drivable ground on both sides: the side of a ramp.
+// A place where the ground jumps by more than kStepM, between drivable ground on both sides: the side of a ramp.
 struct GroundStep {
   Eigen::Vector2d from;
   Eigen::Vector2d to;

@@ -32,14 +32,14 @@ Thing box(const Spot& spot, double length, double width, double height) {
   const auto albedo = static_cast<float>(random.uniform(0.35, 0.6));
   m.surface({Texture::cardboard, albedo, 0.5F, 0.4F, spot.seed});
   centred_box(m, length, width, 0, height);
-  return made("box", m, spot, spot.bottom_m >= kClearance_m ? Expect::free : Expect::obstacle);
+  return made("box", m, spot, spot.bottom_m >= kClearanceM ? Expect::free : Expect::obstacle);
 }
 
 Thing crate(const Spot& spot, double length, double width, double height) {
   MeshBuilder m;
   m.surface({Texture::wood, 0.4F, 0.7F, 0.3F, spot.seed});
   centred_box(m, length, width, 0, height);
-  return made("crate", m, spot, spot.bottom_m >= kClearance_m ? Expect::free : Expect::obstacle);
+  return made("crate", m, spot, spot.bottom_m >= kClearanceM ? Expect::free : Expect::obstacle);
 }
 
 Thing wall(const Spot& spot, double length, double thickness, double height) {
@@ -76,7 +76,7 @@ Thing floor_lamp(const Spot& spot, double height) {
 namespace {
 
 void cord(MeshBuilder& m, double x, double z0, double bottom_m) {
-  const double ceiling = std::max(kCeiling_m - bottom_m, z0 + 0.1);
+  const double ceiling = std::max(kCeilingM - bottom_m, z0 + 0.1);
   m.surface({Texture::plain, 0.1F, 0, 1, 1});
   m.cylinder(x, 0, z0, ceiling, 0.005, 6);
 }
@@ -89,7 +89,7 @@ Thing hanging_bar(const Spot& spot, double length, double thickness) {
   centred_box(m, length, thickness, 0, thickness);
   for (const double side : {-1.0, 1.0})
     cord(m, side * (length / 2 - 0.05), thickness, spot.bottom_m);
-  return made("hanging bar", m, spot, spot.bottom_m >= kClearance_m ? Expect::free : Expect::obstacle);
+  return made("hanging bar", m, spot, spot.bottom_m >= kClearanceM ? Expect::free : Expect::obstacle);
 }
 
 Thing hanging_lamp(const Spot& spot, double diameter) {
@@ -97,7 +97,7 @@ Thing hanging_lamp(const Spot& spot, double diameter) {
   m.surface({Texture::metal, 0.6F, 0.3F, 0.2F, spot.seed});
   m.frustum(0, 0, 0, 0.22, diameter / 2, diameter / 6, 18);
   cord(m, 0, 0.22, spot.bottom_m);
-  return made("hanging lamp", m, spot, spot.bottom_m >= kClearance_m ? Expect::free : Expect::obstacle);
+  return made("hanging lamp", m, spot, spot.bottom_m >= kClearanceM ? Expect::free : Expect::obstacle);
 }
 
 // Two sheets' worth of gently waved surface, a hand's breadth from wave to wave. The edge lies 4 mm up: the sheets below.

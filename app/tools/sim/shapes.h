@@ -13,9 +13,9 @@
 namespace lakshya::sim {
 
 // What hangs with its lower edge at this height or above may be driven under.
-inline constexpr double kClearance_m = 1.2;
-inline constexpr double kCeiling_m = 2.5;
-inline constexpr double kRobotRadius_m = 0.35;
+inline constexpr double kClearanceM = 1.2;
+inline constexpr double kCeilingM = 2.5;
+inline constexpr double kRobotRadiusM = 0.35;
 
 // All sides the same surface.
 void paint(Thing& thing, const Surface& surface);
@@ -33,7 +33,7 @@ Thing table(const Spot& spot, double length, double width, double height);  // l
 Thing shelf(const Spot& spot, double length, double height, double board_height, double overhang);
 Thing bench(const Spot& spot, double length);  // two feet set in, a seat of 0.45 m that sticks out
 
-// Hang from cords of 1 cm that end at the ceiling; `spot.bottom_m` is the lower edge. Free from kClearance_m on.
+// Hang from cords of 1 cm that end at the ceiling; `spot.bottom_m` is the lower edge. Free from kClearanceM on.
 Thing hanging_bar(const Spot& spot, double length, double thickness);
 Thing hanging_lamp(const Spot& spot, double diameter);
 

@@ -61,7 +61,7 @@ Thing tree(const Spot& spot, double trunk_diameter, double height) {
   MeshBuilder m;
   m.surface({Texture::wood, 0.25F, 0.8F, 0.3F, spot.seed});
   m.frustum(0, 0, 0, 0.8 * height, trunk_diameter / 2, trunk_diameter / 5, 14);
-  const double crown = std::max(kClearance_m + 0.4, 0.45 * height);
+  const double crown = std::max(kClearanceM + 0.4, 0.45 * height);
   const Point middle{0, 0, (crown + height) / 2};
   const Point radii{0.3 * height, 0.3 * height, (height - crown) / 2 - 0.1};
   m.surface({Texture::leaves, 0.3F, 0.8F, 0.2F, spot.seed + 1});

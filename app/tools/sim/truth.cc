@@ -131,12 +131,12 @@ void TrueGeometry::make_grid() {
     const Triangle& t = triangles_[i];
     for (int r = row(static_cast<double>(t.bounds.y0)); r <= row(static_cast<double>(t.bounds.y1)); ++r) {
       for (int c = column(static_cast<double>(t.bounds.x0)); c <= column(static_cast<double>(t.bounds.x1)); ++c)
-        buckets[static_cast<std::size_t>(r * columns_ + c)].push_back(static_cast<std::uint32_t>(i));
+        buckets[bucket(c, r)].push_back(static_cast<std::uint32_t>(i));
     }
   }
-  for (const auto& bucket : buckets) {
+  for (const auto& held : buckets) {
     first_.push_back(static_cast<std::uint32_t>(entries_.size()));
-    for (const std::uint32_t i : bucket) {
+    for (const std::uint32_t i : held) {
       entries_.push_back(triangles_[i].bounds);
       entries_.back().triangle = i;
     }
@@ -167,8 +167,8 @@ void TrueGeometry::visit_bucket(int column, int row, const Query& query, Nearest
   constexpr double kRounding = 1e-9;
   if (distance_to_rect({x0, y0, x0 + bucket_m_, y0 + bucket_m_}, query.x, query.y) > best.distance_m + kRounding)
     return;
-  const auto bucket = static_cast<std::size_t>(row * columns_ + column);
-  for (std::uint32_t i = first_[bucket]; i < first_[bucket + 1]; ++i)
+  const std::size_t b = bucket(column, row);
+  for (std::uint32_t i = first_[b]; i < first_[b + 1]; ++i)
     visit(entries_[i], triangles_, query, best);
 }
 

@@ -63,6 +63,9 @@ class TrueGeometry {
   static Triangle triangle(const Mesh& mesh, std::size_t index, int thing, bool glass);
   static void visit(const Bounds& bounds, const std::vector<Triangle>& triangles, const Query& query,
                     Nearest& best);
+  std::size_t bucket(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+  }
   void make_grid();
   void search_grid(const Query& query, Nearest& best) const;
   void visit_bucket(int column, int row, const Query& query, Nearest& best) const;

@@ -125,7 +125,7 @@ Thing read_thing(const YamlValue& value) {
     map.at("yaw_deg").refuse("what walks faces where it walks (remove one)");
   }
   const bool hangs = kind.kind.starts_with("hanging");
-  spot.bottom_m = map.number("bottom_m", hangs ? 1 : kind.kind == "ceiling" ? kCeiling_m : 0, -5, 20);
+  spot.bottom_m = map.number("bottom_m", hangs ? 1 : kind.kind == "ceiling" ? kCeilingM : 0, -5, 20);
   if (map.has("seed")) spot.seed = static_cast<std::uint32_t>(map.at("seed").integer(0, 1'000'000'000));
   ShapeSizes sizes{};
   for (std::size_t i = 0; i < kind.count; ++i) {
@@ -189,8 +189,8 @@ void require_free(const YamlValue& value, const TrueGeometry& truth, const World
   if (at.x() < g.x0 || at.x() > g.x1 || at.y() < g.y0 || at.y() > g.y1)
     value.refuse("lies where there is no ground (move it, or make the ground's extent larger)");
   const double z = ground_height(g, at.x(), at.y());
-  const Nearest nearest = truth.nearest(at.x(), at.y(), z + 0.02, z + kClearance_m, 0, true);
-  if (nearest.distance_m < kRobotRadius_m) {
+  const Nearest nearest = truth.nearest(at.x(), at.y(), z + 0.02, z + kClearanceM, 0, true);
+  if (nearest.distance_m < kRobotRadiusM) {
     const bool ground = nearest.thing < 0;
     const Thing* thing = ground ? nullptr : &world.things[static_cast<std::size_t>(nearest.thing)];
     if (walkers || thing == nullptr || !thing->walk) {

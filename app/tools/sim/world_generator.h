@@ -13,7 +13,7 @@ namespace lakshya::sim {
 
 enum class Kind : std::uint8_t { indoor, outdoor };
 
-inline constexpr double kWayRadius_m = 0.49;   // 1.4 x 0.35 m
+inline constexpr double kWayRadiusM = 0.49;    // 1.4 x 0.35 m
 inline constexpr double kLeastDensity = 0.15;  // obstacles per square metre
 
 World random_world(Kind kind, std::uint64_t seed);

@@ -10,7 +10,7 @@
 namespace lakshya::sim {
 namespace {
 
-constexpr double kWall_m = 0.1;
+constexpr double kWallM = 0.1;
 constexpr double kPi = std::numbers::pi;
 constexpr double kNoDoor = -1;
 
@@ -57,12 +57,12 @@ Look draw_look(const World& world, Random& random) {
 }
 
 // Between two points.
-void add_wall(Course& course, const Look& look, Eigen::Vector2d from, Eigen::Vector2d to) {
+void add_wall(Course& course, const Look& look, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   const Eigen::Vector2d middle = (from + to) / 2;
   const Eigen::Vector2d along = to - from;
   if (along.norm() < 0.01) return;
   Thing thing =
-      wall({middle.x(), middle.y(), std::atan2(along.y(), along.x()), 0, 1}, along.norm(), kWall_m, kCeiling_m);
+      wall({middle.x(), middle.y(), std::atan2(along.y(), along.x()), 0, 1}, along.norm(), kWallM, kCeilingM);
   Surface surface = look.wall;
   surface.seed = course.random().seed();
   paint(thing, surface);
@@ -74,7 +74,7 @@ void add_wall_with_door(Course& course, const Look& look, double x, double y0, d
                         double opening) {
   constexpr double kJamb = 0.15;
   const double half = opening / 2 + kJamb;
-  Thing thing = doorway({x, door, kPi / 2, 0, 1}, 2 * half, opening, kCeiling_m);
+  Thing thing = doorway({x, door, kPi / 2, 0, 1}, 2 * half, opening, kCeilingM);
   paint(thing, look.wall);
   // Its hull would close the opening: the jambs are the walls beside it.
   course.add(std::move(thing));
@@ -84,9 +84,9 @@ void add_wall_with_door(Course& course, const Look& look, double x, double y0, d
 }
 
 void add_walls_around(Course& course, const Look& look, const Rect& r, double west_gap_y0, double west_gap_y1) {
-  constexpr double kHalf = kWall_m / 2;
-  add_wall(course, look, {r.x0 - kWall_m, r.y0 - kHalf}, {r.x1 + kWall_m, r.y0 - kHalf});
-  add_wall(course, look, {r.x0 - kWall_m, r.y1 + kHalf}, {r.x1 + kWall_m, r.y1 + kHalf});
+  constexpr double kHalf = kWallM / 2;
+  add_wall(course, look, {r.x0 - kWallM, r.y0 - kHalf}, {r.x1 + kWallM, r.y0 - kHalf});
+  add_wall(course, look, {r.x0 - kWallM, r.y1 + kHalf}, {r.x1 + kWallM, r.y1 + kHalf});
   add_wall(course, look, {r.x1 + kHalf, r.y0}, {r.x1 + kHalf, r.y1});
   if (west_gap_y1 > west_gap_y0) {
     add_wall(course, look, {r.x0 - kHalf, r.y0}, {r.x0 - kHalf, west_gap_y0});
@@ -97,12 +97,12 @@ void add_walls_around(Course& course, const Look& look, const Rect& r, double we
 }
 
 void add_ceiling_and_lamps(Course& course, const Rect& r) {
-  course.add(ceiling({(r.x0 + r.x1) / 2, (r.y0 + r.y1) / 2, 0, kCeiling_m, 1}, r.x1 - r.x0 + 2 * kWall_m,
-                     r.y1 - r.y0 + 2 * kWall_m));
+  course.add(ceiling({(r.x0 + r.x1) / 2, (r.y0 + r.y1) / 2, 0, kCeilingM, 1}, r.x1 - r.x0 + 2 * kWallM,
+                     r.y1 - r.y0 + 2 * kWallM));
   const int lamps = std::max(1, static_cast<int>((r.x1 - r.x0) / 3.5));
   for (int i = 0; i < lamps; ++i) {
     Lamp lamp;
-    lamp.position = {r.x0 + (r.x1 - r.x0) * (i + 0.5) / lamps, (r.y0 + r.y1) / 2, kCeiling_m - 0.15};
+    lamp.position = {r.x0 + (r.x1 - r.x0) * (i + 0.5) / lamps, (r.y0 + r.y1) / 2, kCeilingM - 0.15};
     lamp.strength = course.random().uniform(1.6, 2.4);
     course.world().light.lamps.push_back(lamp);
   }
@@ -156,10 +156,10 @@ void build_walls(Course& course, const Plan& plan, const Look& look) {
     if (plan.door_x > 0) add_wall_with_door(course, look, plan.door_x, a.y0, a.y1, plan.door_y, plan.door_m);
     return;
   }
-  constexpr double kHalf = kWall_m / 2;
+  constexpr double kHalf = kWallM / 2;
   add_walls_around(course, look, b, a.y0, a.y1);
-  add_wall(course, look, {a.x0 - kWall_m, a.y0 - kHalf}, {a.x1 - kWall_m, a.y0 - kHalf});
-  add_wall(course, look, {a.x0 - kWall_m, a.y1 + kHalf}, {a.x1 - kWall_m, a.y1 + kHalf});
+  add_wall(course, look, {a.x0 - kWallM, a.y0 - kHalf}, {a.x1 - kWallM, a.y0 - kHalf});
+  add_wall(course, look, {a.x0 - kWallM, a.y1 + kHalf}, {a.x1 - kWallM, a.y1 + kHalf});
   add_wall(course, look, {a.x0 - kHalf, a.y0}, {a.x0 - kHalf, a.y1});
   add_ceiling_and_lamps(course, a);
   add_ceiling_and_lamps(course, b);

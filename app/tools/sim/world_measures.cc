@@ -9,8 +9,8 @@
 namespace lakshya::sim {
 namespace {
 
-constexpr double kAround_m = 2;  // a way round everything needs no more
-constexpr double kCells = 2e6;   // at most about so many
+constexpr double kAroundM = 2;  // a way round everything needs no more
+constexpr double kCells = 2e6;  // at most about so many
 
 // Round what stands, drops off, start and goals, as far as there is ground.
 Rect bounds_of(const World& world) {
@@ -33,8 +33,8 @@ Rect bounds_of(const World& world) {
     include({p.x1, p.y1});
   }
   const Ground& g = world.ground;
-  return {std::max(low.x() - kAround_m, g.x0), std::max(low.y() - kAround_m, g.y0),
-          std::min(high.x() + kAround_m, g.x1), std::min(high.y() + kAround_m, g.y1)};
+  return {std::max(low.x() - kAroundM, g.x0), std::max(low.y() - kAroundM, g.y0),
+          std::min(high.x() + kAroundM, g.x1), std::min(high.y() + kAroundM, g.y1)};
 }
 
 bool touch(const Rect& a, const Rect& b) {

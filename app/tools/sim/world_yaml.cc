@@ -9,7 +9,7 @@
 namespace lakshya::sim {
 namespace {
 
-constexpr double kFarthest_m = 500;
+constexpr double kFarthestM = 500;
 
 std::string listed(const std::vector<std::string_view>& names) {
   std::string list;
@@ -24,8 +24,8 @@ int line_of(const YAML::Node& node, int otherwise) {
 
 }  // namespace
 
-YamlValue::YamlValue(YAML::Node node, const std::string& source, std::string what, int line)
-    : node_(std::move(node)), source_(source), what_(std::move(what)), line_(line) {}
+YamlValue::YamlValue(const YAML::Node& node, const std::string& source, std::string what, int line)
+    : node_(node), source_(source), what_(std::move(what)), line_(line) {}
 
 void YamlValue::refuse(const std::string& why) const {
   throw InputError(source_ + ":" + std::to_string(line_), what_ + ": " + why);
@@ -82,18 +82,18 @@ std::vector<double> YamlValue::numbers(std::size_t count, double low, double hig
 }
 
 Eigen::Vector2d YamlValue::point() const {
-  const auto xy = numbers(2, -kFarthest_m, kFarthest_m);
+  const auto xy = numbers(2, -kFarthestM, kFarthestM);
   return {xy[0], xy[1]};
 }
 
 Rect YamlValue::rect() const {
-  const auto v = numbers(4, -kFarthest_m, kFarthest_m);
+  const auto v = numbers(4, -kFarthestM, kFarthestM);
   if (!(v[2] - v[0] >= 0.01 && v[3] - v[1] >= 0.01))
     refuse("less than 1 cm long or wide (write [x0, y0, x1, y1] with x0 < x1 and y0 < y1)");
   return {v[0], v[1], v[2], v[3]};
 }
 
-YamlMap::YamlMap(const YamlValue& value, std::vector<std::string_view> known) : value_(value) {
+YamlMap::YamlMap(const YamlValue& value, const std::vector<std::string_view>& known) : value_(value) {
   if (!value.node().IsMap()) value.refuse("not a map (write \"key: value\" lines, indented below it)");
   for (const auto& item : value.node()) {
     const int line = line_of(item.first, value.line());

@@ -15,7 +15,7 @@ namespace lakshya::sim {
 // One value and where it stands. Everything throws InputError: "file:line: what: why (what to do)".
 class YamlValue {
  public:
-  YamlValue(YAML::Node node, const std::string& source, std::string what, int line);
+  YamlValue(const YAML::Node& node, const std::string& source, std::string what, int line);
 
   [[noreturn]] void refuse(const std::string& why) const;
   double number(double low, double high) const;
@@ -43,7 +43,7 @@ class YamlValue {
 class YamlMap {
  public:
   // Refuses keys that are not in `known`, and keys given twice.
-  YamlMap(const YamlValue& value, std::vector<std::string_view> known);
+  YamlMap(const YamlValue& value, const std::vector<std::string_view>& known);
 
   bool has(std::string_view key) const;
   YamlValue at(std::string_view key) const;  // refuses when it is missing

@@ -70,7 +70,7 @@ TEST(Shapes, BoundsAreWhatWasAskedFor) {
   expect_bounds(table({0, 0, 0, 0, 1}, 1.4, 0.8, 0.72), {-0.7, -0.4, 0}, {0.7, 0.4, 0.72});
   expect_bounds(chair({0, 0, 0, 0, 1}, 0.45), {-0.21, -0.21, 0}, {0.21, 0.21, 0.87});
   expect_bounds(shelf({0, 0, 0, 0, 1}, 1, 1.6, 0.7, 0.3), {-0.175, -0.5, 0}, {0.475, 0.5, 1.6});
-  expect_bounds(hanging_bar({0, 0, 0, 0.9, 1}, 1.2, 0.06), {-0.6, -0.03, 0.9}, {0.6, 0.03, kCeiling_m});
+  expect_bounds(hanging_bar({0, 0, 0, 0.9, 1}, 1.2, 0.06), {-0.6, -0.03, 0.9}, {0.6, 0.03, kCeilingM});
   expect_bounds(doorway({0, 0, 0, 0, 1}, 3, 1.2, 2.5), {-1.5, -0.06, 0}, {1.5, 0.06, 2.5});
   expect_bounds(glass_pane({0, 0, 0, 0, 1}, 1.5, 2.1), {-0.75, -0.02, 0}, {0.75, 0.02, 2.1});
   const Bounds paper = bounds_of(newspaper({0, 0, 0, 0, 1}, 0.6, 0.4));

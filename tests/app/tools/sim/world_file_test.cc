@@ -128,7 +128,7 @@ TEST(NamedWorlds, AllAreRead) {
   for (const std::string_view name : world_names()) {
     const World world = named_world(name);
     EXPECT_EQ(world.name, name);
-    EXPECT_TRUE(std::isfinite(shortest_path_m(world, kWayRadius_m))) << name;
+    EXPECT_TRUE(std::isfinite(shortest_path_m(world, kWayRadiusM))) << name;
   }
   expect_parts(refusal([] { named_world("moon"); }), {"'moon'", "known: figure-7"});
 }

@@ -45,7 +45,7 @@ bool straight_line_is_blocked(const World& world, const TrueGeometry& truth) {
   for (int i = 0; i <= 300; ++i) {
     const Eigen::Vector2d p = from + (world.goals.front() - from) * (i / 300.0);
     const double z = ground_height(world.ground, p.x(), p.y());
-    if (truth.nearest(p.x(), p.y(), z + 0.05, z + kClearance_m, 0, true).distance_m < kRobotRadius_m) return true;
+    if (truth.nearest(p.x(), p.y(), z + 0.05, z + kClearanceM, 0, true).distance_m < kRobotRadiusM) return true;
     if (truth.dropoff_at(p.x(), p.y())) return true;
   }
   return false;
@@ -56,7 +56,7 @@ void expect_course(const World& world, double least_m, double most_m) {
   const Eigen::Vector2d from{world.start.x, world.start.y};
   const Eigen::Vector2d ahead = world.goals.front() - from;
   EXPECT_GE(obstacle_count(world) / drivable_area_m2(world), kLeastDensity);
-  const double path = shortest_path_m(world, kWayRadius_m);
+  const double path = shortest_path_m(world, kWayRadiusM);
   EXPECT_TRUE(std::isfinite(path));
   EXPECT_GE(ahead.norm(), least_m);
   EXPECT_LE(ahead.norm(), most_m);
@@ -64,11 +64,11 @@ void expect_course(const World& world, double least_m, double most_m) {
             40 * 3.14159265358979 / 180);
 
   const TrueGeometry truth(world);
-  EXPECT_GE(truth.nearest(from.x(), from.y(), 0.05, kClearance_m, 0, true).distance_m, 0.9);
+  EXPECT_GE(truth.nearest(from.x(), from.y(), 0.05, kClearanceM, 0, true).distance_m, 0.9);
   World still = world;  // who walks may come to the goal, and goes on
   std::erase_if(still.things, [](const Thing& t) { return t.walk.has_value(); });
   EXPECT_GE(TrueGeometry(still)
-                .nearest(world.goals.front().x(), world.goals.front().y(), 0.05, kClearance_m, 0, true)
+                .nearest(world.goals.front().x(), world.goals.front().y(), 0.05, kClearanceM, 0, true)
                 .distance_m,
             0.8);
   EXPECT_TRUE(straight_line_is_blocked(world, truth));
