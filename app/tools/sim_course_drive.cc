@@ -18,6 +18,7 @@ constexpr double kStands = 0.02;     // m/s
 constexpr double kLeastStand = 0.5;  // s, that are shown
 constexpr double kBegins = 1.5;      // s, in which the firmware gets ready
 constexpr double kDiscStep = 2;      // s
+constexpr double kSamePlace = 0.3;   // m
 constexpr double kPathWidth = 5;
 constexpr Rgb8 kGoalColor{0, 120, 88};
 const Rgb8 kBlockedHalo = mix(kPaper, kBlockedColor, 0.5);
@@ -30,11 +31,15 @@ Point place_of(const CourseView& view, const TracePoint& p) {
   return view.at(p.x, p.y);
 }
 
-// "stood still": from standing to moving again.
+// Where it stood, or turned on the spot, and for how long in all.
 struct Stand {
   std::size_t first = 0;
   double seconds = 0;
 };
+
+double distance(const TracePoint& a, const TracePoint& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
 
 std::vector<Stand> stands(const std::vector<TracePoint>& trace) {
   std::vector<Stand> list;
@@ -47,17 +52,25 @@ std::vector<Stand> stands(const std::vector<TracePoint>& trace) {
       continue;
     }
     const double seconds = trace[end - 1].time_s - trace[i].time_s;
-    if (seconds >= kLeastStand && trace[end - 1].time_s > kBegins) list.push_back({i, seconds});
+    if (seconds >= kLeastStand && trace[end - 1].time_s > kBegins) {
+      const auto same = std::ranges::find_if(
+          list, [&](const Stand& s) { return distance(trace[s.first], trace[i]) < kSamePlace; });
+      if (same != list.end())
+        same->seconds += seconds;
+      else
+        list.push_back({i, seconds});
+    }
     i = end;
   }
   return list;
 }
 
 void draw_discs(Canvas& map, const CourseView& view, const std::vector<TracePoint>& trace, double radius_px) {
-  double next = 0;
+  constexpr double kMoved = 0.1;  // m; one disc where it stands, however long
+  const TracePoint* last = nullptr;
   for (const TracePoint& p : trace) {
-    if (p.time_s < next) continue;
-    next = p.time_s + kDiscStep - 0.05;
+    if (last != nullptr && (p.time_s < last->time_s + kDiscStep - 0.05 || distance(p, *last) < kMoved)) continue;
+    last = &p;
     map.polygon(circle(place_of(view, p), radius_px), kVehicleColor, 0.16);
     map.line(circle(place_of(view, p), radius_px), mix(kVehicleColor, kPaper, 0.3), 1);
   }
@@ -180,7 +193,7 @@ LegendItem disc_item(const std::string& text, Rgb8 rim, Rgb8 fill) {
 std::vector<LegendItem> drive_legend(const std::vector<TracePoint>& trace) {
   std::vector<LegendItem> items{disc_item("vehicle, every " + decimal(kDiscStep, 0) + " s",
                                           mix(kVehicleColor, kPaper, 0.45), mix(kPaper, kVehicleColor, 0.2))};
-  if (!stands(trace).empty()) items.push_back(disc_item("stood still", kInk, {255, 214, 60}));
+  if (!stands(trace).empty()) items.push_back(disc_item("stood or turned on the spot", kInk, {255, 214, 60}));
   if (std::ranges::any_of(trace, &TracePoint::blocked))
     items.push_back(filled_item("saw no way open", kBlockedHalo));
   return items;
