@@ -113,7 +113,7 @@ double corridor_obstacle_m(ImageView<const std::uint8_t> type, const GridGeometr
   const double forward = snapped(std::cos(direction));
   const double left = snapped(std::sin(direction));
   const double cell_m = cell_metres(geometry);
-  const double reach_m = radius_m + cell_m * std::numbers::sqrt2 / 2;
+  const double reach_m = std::max(radius_m, cell_m * std::numbers::sqrt2 / 2);
   double nearest = std::numeric_limits<double>::infinity();
   for (int r = 0; r < geometry.rows; ++r) {
     const double ahead = (r + 0.5) * cell_m;

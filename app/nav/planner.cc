@@ -87,6 +87,8 @@ Status Planner::configure(const PlannerParams& params, const VehicleParams& vehi
   circles_ = {.radius_m = params.turning_radius_m,
               .enlargement_m = enlargement_m,
               .active_radius_m = params.active_radius_m};
+  // A cell may be occupied up to its corner.
+  corridor_m_ = vehicle.radius_m + geometry.cell_mm / 1000.0 * std::numbers::sqrt2 / 2;
   governor_ = governor_of(vehicle);
   creep_ = params.unknown == "slow";
   is_vfh_ = is_vfh(params);
@@ -113,8 +115,7 @@ Status Planner::plan(ImageView<const std::uint8_t> type, const PlanInput& input,
     next.blocked = false;
     next.direction = *chosen;
     be_patient(input, state, next);
-    const ClearDistance clear =
-        clear_distance(type, geometry_, next.direction, params_.blind_zone_m, vehicle_.radius_m);
+    const ClearDistance clear = clear_distance(type, geometry_, next.direction, params_.blind_zone_m, corridor_m_);
     next.clear_distance_m = clear.metres;
     next.clear_end = clear.end;
     double speed_mps = std::min(speed_along(type, next), speed_limit(input, next));
@@ -214,7 +215,7 @@ double Planner::speed_while_turning(ImageView<const std::uint8_t> type, double d
   double least = vehicle_.max_speed_mps;
   const double carried = std::clamp(kCarriedTurn * heading_change, -radians(90), radians(90));
   for (const double swept : {0.0, direction / 2, carried}) {
-    const double obstacle_m = corridor_obstacle_m(type, geometry_, swept, vehicle_.radius_m);
+    const double obstacle_m = corridor_obstacle_m(type, geometry_, swept, corridor_m_);
     least = std::min(least, governed_speed(obstacle_m, governor_));
   }
   return least;
@@ -238,7 +239,7 @@ double Planner::speed_along(ImageView<const std::uint8_t> type, const Plan& plan
   const double known = governed_speed(plan.clear_distance_m, governor_);
   if (!creep_ || plan.clear_end == ClearEnd::obstacle) return known;
   const double creep = std::min(params_.unknown_speed_mps, vehicle_.max_speed_mps);
-  const double obstacle_m = corridor_obstacle_m(type, geometry_, plan.direction, vehicle_.radius_m);
+  const double obstacle_m = corridor_obstacle_m(type, geometry_, plan.direction, corridor_m_);
   return std::min(std::max(known, creep), governed_speed(obstacle_m, governor_));
 }
 

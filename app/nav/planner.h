@@ -136,6 +136,7 @@ class Planner {
   decltype(&polar_histogram_ref) sum_histogram_ = polar_histogram_simd;
   TurningCircles circles_;
   GovernorParams governor_;
+  double corridor_m_ = 0;  // half width of the way that must be free
   bool creep_ = false;
   bool is_vfh_ = false;
   bool is_star_ = false;

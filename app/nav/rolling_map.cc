@@ -281,7 +281,7 @@ void RollingMap::stand_here(const Sight& sight) {
     for (std::int64_t x = x0 - reach; x <= x0 + reach; ++x) {
       if (!holds(x, y)) continue;
       const std::size_t i = index(x, y);
-      if (memory_.evidence[i] <= kFree) continue;
+      if (memory_.evidence[i] == 0) continue;
       const double distance =
           std::hypot(static_cast<double>(x) + 0.5 - sight.east, static_cast<double>(y) + 0.5 - sight.north);
       if (distance <= radius) memory_.evidence[i] = kFree;

@@ -5,7 +5,7 @@
 // distance, beyond that less with distance, at least kBelieved / far_hits. A cell with kBelieved is an obstacle, with less it is
 // unknown. A world cell whose centre lies in an unoccupied cell of the frame loses kCleared at once, or less from far away, and
 // is unoccupied when nothing is left. Unknown cells of a frame change nothing: what the camera does not see (blind zone, beside,
-// behind) stays for keep_s, and an obstacle within blind_m for as long as it is there.
+// behind) stays for keep_s, and what is within blind_m for as long as it is there.
 // Floor seen below something does not clear it: an obstacle loses evidence only where the camera's upper edge, as far away as the
 // cell is, lies above the greatest mean height that the cell was seen with. So a bar or a table top that has left the image at
 // the top stays.
@@ -40,12 +40,12 @@ struct UpperEdge {
 };
 
 struct RollingMapParams {
-  double size_m = 50;    // side of the square
-  double keep_s = 20;    // what was not seen for so long is forgotten
-  double blind_m = 1.0;  // obstacles nearer than this do not age: nothing could show whether they are still there
-  double near_m = 1.5;   // nearer than this plus the braking distance an obstacle is believed at once
-  int far_hits = 2;      // frames that must see it anywhere, 1 to kBelieved
-  double latency_s = 0.25;         // of braking
+  double size_m = 50;       // side of the square
+  double keep_s = 20;       // what was not seen for so long is forgotten
+  double blind_m = 1.0;     // what is nearer than this does not age: nothing could show whether it is still there
+  double near_m = 1.5;      // nearer than this plus the braking distance an obstacle is believed at once
+  int far_hits = 2;         // frames that must see it anywhere, 1 to kBelieved
+  double latency_s = 0.25;  // of braking
   double deceleration_mps2 = 2.0;  // of braking, > 0
   double radius_m = 0.35;          // the vehicle's
   UpperEdge camera;
@@ -84,7 +84,7 @@ class RollingMap {
   Status add(const NavGrid& frame, const MapPose& at);
 
   // The map as seen from the pose of the last add(): cells of CellType, forward half-plane. Every believed obstacle marks the
-  // cell that holds its centre, and so do those of its four neighbours that were never seen: a face has something behind it. All
+  // cell that holds its centre, and so do up to kThickness cells to its east, west, north and south that were never seen: a face has something behind it. All
   // others ask the world cell below their own centre, and are unknown where that is an obstacle.
   // Beyond the square's edge `frame` counts alone. size_mismatch; bad_argument: nothing was added yet.
   Status view(ImageView<const std::uint8_t> frame, ImageView<std::uint8_t> type) const;

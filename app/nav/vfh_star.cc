@@ -13,6 +13,8 @@ constexpr double kDiscount = 0.8;  // lambda
 // Weights of projected candidates: mu1', mu2', mu3' as shares of the primary ones (2000: 5, 1, 1 for 5, 2, 2).
 constexpr double kProjectedTurn = 0.5;
 constexpr double kTolerance = 1e-9;
+// A way that has to turn back by more than this has come to a dead end. (Discounted, turning back there would be cheap.)
+constexpr double kMostTurn = radians(100);
 
 struct Place {
   double x = 0;  // m ahead
@@ -87,7 +89,7 @@ class Search {
   }
 
   bool is_there(const Place& at) const {
-    return near_ && std::hypot(target_.x - at.x, target_.y - at.y) <= params_.step_m;
+    return near_ && std::hypot(target_.x - at.x, target_.y - at.y) <= params_.step_m + kTolerance;
   }
   double target_from(const Place& at) const {
     return near_ ? std::atan2(target_.y - at.y, target_.x - at.x) : wishes_.target;
@@ -110,13 +112,14 @@ class Search {
                                .wide_opening_sectors = costs_.wide_opening_sectors};
     const Openings openings = find_openings(free, blocked);
     for (const Opening& opening : openings.view()) {
-      if (opening.count == kPolarSectors) {
+      if (opening.count == kPolarSectors && angle_between(wishes.target, from.heading) <= kMostTurn) {
         step(from, wishes.target, direction_cost(wishes.target, wishes, costs), from.first);
         continue;
       }
       const Candidates candidates = candidates_of(opening, free, wishes.target, costs);
       for (const double c : candidates.view())
-        step(from, c, direction_cost(c, wishes, costs), from.first);
+        if (angle_between(c, from.heading) <= kMostTurn)
+          step(from, c, direction_cost(c, wishes, costs), from.first);
     }
   }
 

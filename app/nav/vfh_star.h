@@ -6,7 +6,7 @@
 // As the paper has it: the costs of projected candidates (their own weights, discounted with 0.8^depth) and the heuristic, the
 // cost of turning straight to the target. A candidate here is one that VFH+ offers (offer_candidates).
 // Beyond the paper: a step is a turn on the spot and a straight line, which must stay `clearance_m` away from every obstacle cell;
-// what is unknown counts as free, since VFH+ has the last word about the first step; a way that ends in front of an obstacle is
+// a way that would have to turn back has come to its end; what is unknown counts as free, since VFH+ has the last word about the first step; a way that ends in front of an obstacle is
 // taken only if no other is as long; two places of one depth less than a third of a step apart are one, the cheaper; and there
 // are at most kStarNodes of them, so that the time is bounded.
 #pragma once

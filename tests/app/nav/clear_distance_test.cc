@@ -94,7 +94,7 @@ TEST(LookAlong, UnknownCellsBetweenKnownOnesOfTheBlindZoneArePassedOver) {
   world.rows(3, 5, kCellUnknown);
   EXPECT_TRUE(world.look(0).seen);
   EXPECT_NEAR(world.look(0).clear_m, 4.0, 1e-9);
-  world.rows(5, 6, kCellUnknown);  // what follows is no longer in the blind zone
+  world.rows(5, 7, kCellUnknown);  // what follows is no longer in the blind zone
   EXPECT_TRUE(world.look(0).seen);
   EXPECT_NEAR(world.look(0).clear_m, 0.3, 1e-9);
   EXPECT_EQ(world.look(0).end, ClearEnd::unknown);

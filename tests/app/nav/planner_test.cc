@@ -226,12 +226,13 @@ TEST(Planner, AWiderVehicleIsBlockedWhereverANarrowOneIs) {
     wide.vehicle.radius_m = narrow.vehicle.radius_m + 0.2;
     const Plan a = narrow.fresh();
     const Plan b = wide.fresh();
+    ASSERT_LE(a.blocked, b.blocked);
+    if (a.squeezes || b.squeezes) continue;  // other histograms
     for (std::size_t k = 0; k < kPolarSectors; ++k) {
       ASSERT_LE(a.binary[k], b.binary[k]);
       ASSERT_LE(a.masked[k], b.masked[k]);
       ASSERT_GE(a.selectable[k], b.selectable[k]);
     }
-    ASSERT_LE(a.blocked, b.blocked);
   }
 }
 

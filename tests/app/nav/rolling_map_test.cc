@@ -255,6 +255,7 @@ TEST_F(RollingMapTest, RollsOverItsBorder) {
 
 TEST_F(RollingMapTest, AJumpFartherThanTheMapForgetsAll) {
   configure();
+  fill(kCellUnoccupied);
   block(10, 12, 40, 42, kCellObstacle);
   add();
   ASSERT_EQ(obstacles(), 4);
@@ -280,7 +281,7 @@ TEST_F(RollingMapTest, APoleIsNeverLostByTurning) {
   for (const int col : {40, 33, 25}) {
     at = {};
     configure();
-    fill(kCellUnknown);
+    fill(kCellUnoccupied);
     block(14, 15, col, col + 1, kCellObstacle);
     add(0);
     const double bearing = std::atan2(3.95 - 0.1 * col, 1.45);
