@@ -35,7 +35,8 @@ inline std::vector<Disc> random_discs(std::mt19937& random, double length, doubl
     const Disc disc{east(random), north(random), radius(random)};
     double gap = discs.empty() ? 1 : std::numeric_limits<double>::infinity();
     for (const Disc& d : discs)
-      gap = std::min(gap, std::hypot(d.east_m - disc.east_m, d.north_m - disc.north_m) - d.radius_m - disc.radius_m);
+      gap =
+          std::min(gap, std::hypot(d.east_m - disc.east_m, d.north_m - disc.north_m) - d.radius_m - disc.radius_m);
     if (gap >= 0.98 && gap <= 1.75) discs.push_back(disc);
   }
   return discs;
@@ -119,6 +120,7 @@ class DiscDrive {
     seen_.assign(side * side, 0);
     ASSERT_EQ(map_.configure(map_params, geometry_, {evidence_, height_, seen_}), Status::ok);
     ASSERT_EQ(planner_.configure(params, vehicle, geometry_, table_), Status::ok);
+    prepare_view();
     state_ = {};
     has_direction_ = false;
     planned_yaw_ = 0;
@@ -135,9 +137,10 @@ class DiscDrive {
     EXPECT_EQ(map_.add(frame, at), Status::ok);
     EXPECT_EQ(map_.view(type_.view(), shown_.view()), Status::ok);
     const double turned = wrap_angle(pose.yaw - planned_yaw_);
-    PlanInput input{.target = wrap_angle(std::atan2(goal.north_m - pose.north_m, goal.east_m - pose.east_m) - pose.yaw),
-                    .target_distance_m = distance,
-                    .heading_change = turned};
+    PlanInput input{
+        .target = wrap_angle(std::atan2(goal.north_m - pose.north_m, goal.east_m - pose.east_m) - pose.yaw),
+        .target_distance_m = distance,
+        .heading_change = turned};
     if (has_direction_) input.previous = wrap_angle(direction_ - turned);
     Plan plan;
     EXPECT_EQ(planner_.plan(shown_.view(), input, state_, plan), Status::ok);
@@ -147,11 +150,43 @@ class DiscDrive {
     return plan;
   }
 
-  // What the camera shows: floor as far as the nearest disc, the disc's face, nothing behind it.
-  void look(const Pose& pose) {
+  struct Ray {
+    double cos = 0;
+    double sin = 0;
+    double reach = 0;
+  };
+
+  // Which ray meets a cell, how far away.
+  struct SeenCell {
+    int row = 0;
+    int col = 0;
+    std::size_t ray = 0;
+    double distance = 0;
+  };
+
+  void prepare_view() {
     constexpr int kRays = 360;
     const double half_view = radians(view_deg / 2);
-    std::vector<double> reach(kRays + 1, kViewM);
+    rays_.clear();
+    for (int k = 0; k <= kRays; ++k) {
+      const double ray = half_view * (2.0 * k / kRays - 1);
+      rays_.push_back({std::cos(ray), std::sin(ray), 0});
+    }
+    seen_cells_.clear();
+    for (int r = 0; r < geometry_.rows; ++r) {
+      for (int col = 0; col < geometry_.cols; ++col) {
+        const double x = (r + 0.5) * 0.1;
+        const double y = (geometry_.cols / 2.0 - col - 0.5) * 0.1;
+        const double distance = std::hypot(x, y);
+        const double ray = (std::atan2(y, x) / half_view + 1) / 2 * kRays;
+        if (distance > kViewM || distance < kBlindM || ray < 0 || ray > kRays) continue;
+        seen_cells_.push_back({r, col, static_cast<std::size_t>(ray), distance});
+      }
+    }
+  }
+
+  // What the camera shows: floor as far as the nearest disc, the disc's face, nothing behind it.
+  void look(const Pose& pose) {
     const double c = std::cos(pose.yaw);
     const double s = std::sin(pose.yaw);
     for (int r = 0; r < geometry_.rows; ++r) {
@@ -159,37 +194,26 @@ class DiscDrive {
       std::fill_n(count_.view().row(r), geometry_.cols, 0U);
       std::fill_n(height_sum_.view().row(r), geometry_.cols, 0);
     }
+    for (Ray& ray : rays_)
+      ray.reach = kViewM;
     for (const Disc& d : discs_) {
       const double x = (d.east_m - pose.east_m) * c + (d.north_m - pose.north_m) * s;
       const double y = -(d.east_m - pose.east_m) * s + (d.north_m - pose.north_m) * c;
-      if (x < -1 || std::hypot(x, y) > kViewM + 1) continue;
-      for (int k = 0; k <= kRays; ++k) {
-        const double ray = half_view * (2.0 * k / kRays - 1);
-        const double along = x * std::cos(ray) + y * std::sin(ray);
-        const double beside = std::abs(x * std::sin(ray) - y * std::cos(ray));
+      if (x < -1 || x * x + y * y > (kViewM + 1) * (kViewM + 1)) continue;
+      for (Ray& ray : rays_) {
+        const double along = x * ray.cos + y * ray.sin;
+        const double beside = std::abs(x * ray.sin - y * ray.cos);
         if (along <= 0 || beside >= d.radius_m) continue;
-        const double hit = along - std::sqrt(d.radius_m * d.radius_m - beside * beside);
-        reach[static_cast<std::size_t>(k)] = std::min(reach[static_cast<std::size_t>(k)], hit);
+        ray.reach = std::min(ray.reach, along - std::sqrt(d.radius_m * d.radius_m - beside * beside));
       }
     }
-    const int half_cols = geometry_.cols / 2;
-    for (int r = 0; r < geometry_.rows; ++r) {
-      for (int col = 0; col < geometry_.cols; ++col) {
-        const double x = (r + 0.5) * 0.1;
-        const double y = (half_cols - col - 0.5) * 0.1;
-        const double distance = std::hypot(x, y);
-        if (std::abs(y) > x || distance > kViewM || distance < kBlindM) continue;
-        const double ray = (std::atan2(y, x) / half_view + 1) / 2 * kRays;
-        if (ray < 0 || ray > kRays) continue;
-        if (distance < reach[static_cast<std::size_t>(ray)]) type_.view().at(col, r) = kCellUnoccupied;
-      }
+    for (const SeenCell& cell : seen_cells_) {
+      if (cell.distance < rays_[cell.ray].reach) type_.view().at(cell.col, cell.row) = kCellUnoccupied;
     }
-    for (int k = 0; k <= kRays; ++k) {
-      const double hit = reach[static_cast<std::size_t>(k)];
-      if (hit >= kViewM || hit < kBlindM) continue;
-      const double ray = half_view * (2.0 * k / kRays - 1);
-      const int r = static_cast<int>(std::floor(hit * std::cos(ray) * 10));
-      const int col = static_cast<int>(std::floor(half_cols - hit * std::sin(ray) * 10));
+    for (const Ray& ray : rays_) {
+      if (ray.reach >= kViewM || ray.reach < kBlindM) continue;
+      const int r = static_cast<int>(std::floor(ray.reach * ray.cos * 10));
+      const int col = static_cast<int>(std::floor(geometry_.cols / 2.0 - ray.reach * ray.sin * 10));
       if (r < 0 || r >= geometry_.rows || col < 0 || col >= geometry_.cols) continue;
       type_.view().at(col, r) = kCellObstacle;
       count_.view().at(col, r) = 10;
@@ -217,6 +241,8 @@ class DiscDrive {
   }
 
   std::vector<Disc> discs_;
+  std::vector<Ray> rays_;
+  std::vector<SeenCell> seen_cells_;
   GridGeometry geometry_{.rows = 60, .cols = 80, .cell_mm = 100};
   Image<std::uint8_t> type_{80, 60, kCellUnknown};
   Image<std::uint8_t> shown_{80, 60, kCellUnknown};
