@@ -45,6 +45,17 @@ RollingMapParams rolling_map_params(const VehicleConfig& config, const Rectified
   return p;
 }
 
+RouteParams route_params(const VehicleConfig& config, const RectifiedGeometry& camera) {
+  RouteParams p;
+  p.radius_m = config.vehicle.radius_m;
+  p.margin_m = config.planner.route_margin_m;
+  p.comfort_m = config.planner.route_comfort_m;
+  p.reach_m = config.planner.route_reach_m;
+  p.blind_m = blind_zone_m(config, camera);
+  p.view = std::atan(camera.width / (2 * camera.focal_px));
+  return p;
+}
+
 PruneGeometry prune_geometry(const VehicleConfig& config, const RectifiedGeometry& camera) {
   PruneGeometry g;
   g.focal_px = camera.focal_px;

@@ -5,6 +5,7 @@
 #include "app/core/calibration.h"
 #include "app/core/vehicle_config.h"
 #include "app/nav/rolling_map.h"
+#include "app/nav/route.h"
 #include "kernels/base/nav_grid.h"
 #include "kernels/ground/ground.h"
 #include "kernels/prune/prune.h"
@@ -16,6 +17,7 @@ namespace lakshya {
 double max_disparity_px(const MatcherConfig& matcher);
 
 GridGeometry grid_geometry(const GridConfig& grid);
+RouteParams route_params(const VehicleConfig& config, const RectifiedGeometry& camera);
 RollingMapParams rolling_map_params(const VehicleConfig& config, const RectifiedGeometry& camera);
 PruneGeometry prune_geometry(const VehicleConfig& config, const RectifiedGeometry& camera);
 ScoreGeometry score_geometry(const VehicleConfig& config, const RectifiedGeometry& camera);

@@ -33,8 +33,6 @@ NavGrid take_grid(const GridGeometry& g, Arena& arena) {
           arena.take_image<std::uint8_t>(g.cols, g.rows)};
 }
 
-// A map for every thread that may count points, the first of them the frame's: adding the others to it costs less than
-// atomic adds in a common one (docs/performance.md).
 RollingMapMemory take_rolling_map(const VehicleConfig& config, Arena& arena) {
   if (!rolls(config)) return {};
   const int side = rolling_map_side(grid_geometry(config.grid), config.map.size_m);
@@ -42,6 +40,20 @@ RollingMapMemory take_rolling_map(const VehicleConfig& config, Arena& arena) {
   return {arena.take<std::uint8_t>(cells), arena.take<std::int16_t>(cells), arena.take<std::uint32_t>(cells)};
 }
 
+bool routes(const VehicleConfig& config) {
+  return rolls(config) && config.planner.name == "route";
+}
+
+RouteMemory take_route(const VehicleConfig& config, Arena& arena) {
+  if (!routes(config)) return {};
+  constexpr auto kCells = static_cast<std::size_t>(kRouteCells);
+  return {arena.take<std::uint8_t>(kCells), arena.take<std::uint8_t>(kCells), arena.take<std::uint8_t>(kCells),
+          arena.take<std::int32_t>(kCells), arena.take<std::int32_t>(kCells), arena.take<std::int32_t>(kCells),
+          arena.take<std::uint8_t>(kCells)};
+}
+
+// A map for every thread that may count points, the first of them the frame's: adding the others to it costs less than
+// atomic adds in a common one (docs/performance.md).
 std::vector<NavGrid> take_maps(const GridGeometry& g, int bands, Arena& arena) {
   std::vector<NavGrid> maps(size(std::clamp(omp_get_max_threads(), 1, bands)));
   for (NavGrid& map : maps)
@@ -99,7 +111,8 @@ Pipeline::Buffers::Buffers(const VehicleConfig& config, const RectifiedGeometry&
       polar_table(arena.take<PolarEntry>(polar_table_entries(grid_geometry(config.grid)))),
       rolling(take_rolling_map(config, arena)),
       rolling_type(rolls(config) ? arena.take_image<std::uint8_t>(config.grid.cols, config.grid.rows)
-                                 : ImageView<std::uint8_t>{}) {}
+                                 : ImageView<std::uint8_t>{}),
+      route(take_route(config, arena)) {}
 
 std::size_t Pipeline::memory_bytes(const VehicleConfig& config, const StereoCalibration& calibration, int width,
                                    int height, const KernelTable& kernels) {
@@ -125,6 +138,7 @@ Pipeline::Pipeline(const VehicleConfig& config, const StereoCalibration& calibra
       blind_zone_m_(blind_zone_m(config, camera_)),
       remap_(needs_remap(calibration)),
       rolls_(rolls(config)),
+      routes_(routes(config)),
       arena_(std::move(memory)) {
   const int first = stored_range(config.matcher.min_disparity, camera_.doffs()).first_raw;
   if (first >= width || first + config.matcher.disparities <= -width) {
@@ -150,6 +164,8 @@ Pipeline::Pipeline(const VehicleConfig& config, const StereoCalibration& calibra
   if (rolls_) {
     require(rolling_map_.configure(rolling_map_params(config, camera_), b.maps[0].geometry, b.rolling), "map");
   }
+  if (routes_)
+    require(route_planner_.configure(route_params(config, camera_), b.maps[0].geometry.cell_mm, b.route), "route");
   PlannerParams planner = config.planner;
   planner.blind_zone_m = blind_zone_m_;
   require(planner_.configure(planner, config.vehicle, b.maps[0].geometry, b.polar_table, kernels.polar_histogram),
@@ -175,6 +191,7 @@ void Pipeline::begin_anew() {
   ground_offset16_.reset();
   plan_state_ = {};
   if (rolls_) rolling_map_.reset();
+  route_planner_.reset();
   times_ = {};
 }
 
@@ -263,6 +280,21 @@ Status Pipeline::remember(const PlanInput& input, FrameResult& result) {
   return rolling_map_.view(result.grid.type, buffers_->rolling_type);
 }
 
+Status Pipeline::plan(const PlanInput& input, FrameResult& result) {
+  if (!routes_ || !input.pose) return planner_.plan(result.map, input, plan_state_, result.plan);
+  PlanInput with_route = input;
+  const Pose& pose = input.pose->pose;
+  constexpr double kFarAway = 1000;  // of a direction without a place
+  const double distance_m = std::min(input.target_distance_m, kFarAway);
+  Route route;
+  const Status found =
+      route_planner_.plan(rolling_map_, pose, pose.east_m + distance_m * std::cos(pose.yaw + input.target),
+                          pose.north_m + distance_m * std::sin(pose.yaw + input.target), route);
+  if (found != Status::ok) return found;
+  with_route.route = route;
+  return planner_.plan(result.map, with_route, plan_state_, result.plan);
+}
+
 Status Pipeline::process(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
                          const PlanInput& input, FrameResult& result) {
   result.plan = {};  // blocked: a frame that fails leaves no old command behind
@@ -284,8 +316,7 @@ Status Pipeline::process(ImageView<const std::uint8_t> left, ImageView<const std
   if (status != Status::ok) return status;
   status = timed(*clock_, Stage::remember, result, [&] { return remember(input, result); });
   if (status != Status::ok) return status;
-  status = timed(*clock_, Stage::plan, result,
-                 [&] { return planner_.plan(result.map, input, plan_state_, result.plan); });
+  status = timed(*clock_, Stage::plan, result, [&] { return plan(input, result); });
   if (status == Status::ok) times_.add(result.times);
   return status;
 }

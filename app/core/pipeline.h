@@ -101,6 +101,7 @@ class Pipeline {
     std::span<PolarEntry> polar_table;
     RollingMapMemory rolling;  // empty, as its view, where there is none
     ImageView<std::uint8_t> rolling_type;
+    RouteMemory route;  // empty where nothing searches for one
   };
 
   void make_maps(const StereoCalibration& calibration);
@@ -108,6 +109,7 @@ class Pipeline {
   Status find_ground(FrameResult& result);
   Status project_and_bin(FrameResult& result);
   Status remember(const PlanInput& input, FrameResult& result);
+  Status plan(const PlanInput& input, FrameResult& result);
   Rows band_rows(int band) const;
 
   const KernelTable* kernels_;
@@ -119,6 +121,7 @@ class Pipeline {
   double blind_zone_m_;
   bool remap_;
   bool rolls_;
+  bool routes_;
   Arena arena_;
   std::unique_ptr<Buffers> buffers_;
   PruneModel mount_model_;
@@ -127,6 +130,7 @@ class Pipeline {
   std::int32_t ground_rate16_ = 0;
   std::optional<std::int32_t> ground_offset16_;  // of the last frame
   RollingMap rolling_map_;
+  RoutePlanner route_planner_;
   Planner planner_;
   PlanState plan_state_;
   StageTimes times_;

@@ -18,7 +18,7 @@ namespace lakshya {
 
 inline constexpr std::array<std::string_view, 3> kMatcherNames{"sgm", "census", "sad"};
 inline constexpr std::array<std::string_view, 2> kEdgeNames{"log", "sobel"};
-inline constexpr std::array<std::string_view, 3> kPlannerNames{"vfh+", "vfh*", "vfh"};
+inline constexpr std::array<std::string_view, 4> kPlannerNames{"vfh+", "vfh*", "route", "vfh"};
 inline constexpr std::array<std::string_view, 2> kUnknownNames{"stop", "slow"};
 
 struct Group {
@@ -226,9 +226,8 @@ void visit_map_keys(Map& c, Visitor& v) {
 template <class Planner, class Visitor>
 void visit_planner_keys(Planner& c, Visitor& v) {
   v(Key{"planner.name", "",
-        "Planning method (vfh+: Ulrich and Borenstein 1998; vfh*: 2000, which looks ahead; vfh: Borenstein and "
-        "Koren "
-        "1991, without the vehicle's size)"},
+        "Planning method (route: the cheapest way through the rolling map; vfh+: Ulrich and Borenstein 1998; vfh*: "
+        "2000, which looks ahead; vfh: Borenstein and Koren 1991, without the vehicle's size)"},
     c.name, Names{kPlannerNames});
   v(Key{"planner.active_radius_m", "m", "Obstacles farther from the turning centre than this are ignored (r_a)"},
     c.active_radius_m, Range{0.5, 100});
@@ -261,6 +260,12 @@ void visit_planner_keys(Planner& c, Visitor& v) {
   v(Key{"planner.star_step_m", "m", "vfh*: length of one step of the look-ahead"}, c.star_step_m, Range{0.1, 10});
   v(Key{"planner.star_depth", "steps", "vfh*: how many steps it looks ahead"}, c.star_depth,
     Range{1, kStarMaxDepth});
+  v(Key{"planner.route_margin_m", "m",
+        "route: least distance between the vehicle's side and the middle of an obstacle cell"},
+    c.route_margin_m, Range{0, 2});
+  v(Key{"planner.route_comfort_m", "m", "route: distance from the vehicle's side that is kept where that is cheap"},
+    c.route_comfort_m, Range{0, 5});
+  v(Key{"planner.route_reach_m", "m", "route: how far ahead the vehicle aims"}, c.route_reach_m, Range{0.2, 20});
   v(Key{"planner.vfh_smoothing", "sectors",
         "vfh: neighbours to either side that a sector's density is smoothed with (l); 0: none"},
     c.vfh_smoothing, Range{0, kMaxSmoothing});

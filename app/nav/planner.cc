@@ -13,6 +13,11 @@ namespace {
 constexpr double kNarrowReach = 3;
 // A turn goes on for about as many frames after a plan has ended it.
 constexpr double kCarriedTurn = 2.5;
+// On a route: half of the corridor that must be free, beyond the vehicle's radius; the least way ahead of the body that is crept
+// on; the direction from which on the vehicle turns in place.
+constexpr double kRouteCorridor = 0.03;
+constexpr double kCreepClear = 0.15;
+constexpr double kTurnsInPlace = radians(60);
 
 bool millimetres(double metres, std::int32_t& mm) {
   if (!(metres >= 0 && metres <= kPolarMaxActiveRadiusMm / 1000.0)) return false;
@@ -49,9 +54,13 @@ bool is_star(const PlannerParams& p) {
   return p.name == "vfh*";
 }
 
+bool is_route(const PlannerParams& p) {
+  return p.name == "route";
+}
+
 bool usable(const PlannerParams& p) {
   return p.commitment_deg >= 0 && p.star_step_m > 0 && std::isfinite(p.star_step_m) && p.star_depth >= 1 &&
-         p.star_depth <= kStarMaxDepth && (p.name == "vfh+" || is_star(p) || is_vfh(p)) &&
+         p.star_depth <= kStarMaxDepth && (p.name == "vfh+" || is_star(p) || is_vfh(p) || is_route(p)) &&
          (p.unknown == "stop" || p.unknown == "slow") && p.vfh_smoothing >= 0 && p.vfh_smoothing <= kMaxSmoothing &&
          p.vfh_stop_density > 0;
 }
@@ -93,6 +102,7 @@ Status Planner::configure(const PlannerParams& params, const VehicleParams& vehi
   creep_ = params.unknown == "slow";
   is_vfh_ = is_vfh(params);
   is_star_ = is_star(params);
+  is_route_ = is_route(params);
   return Status::ok;
 }
 
@@ -109,6 +119,12 @@ Status Planner::plan(ImageView<const std::uint8_t> type, const PlanInput& input,
   choose_sectors(type, next);
   next.openings = find_openings(next.selectable, next.masked);
 
+  if (is_route_ && input.route) {
+    follow_route(type, input, next);
+    recover(input.heading_change, state, next);
+    plan = next;
+    return Status::ok;
+  }
   std::optional<double> chosen = choose(type, input, next);
   if (!chosen && !is_vfh_) chosen = squeeze(type, input, next);
   if (chosen) {
@@ -129,6 +145,31 @@ Status Planner::plan(ImageView<const std::uint8_t> type, const PlanInput& input,
   recover(input.heading_change, state, next);
   plan = next;
   return Status::ok;
+}
+
+// What lies along the way is judged like everywhere else; the way itself leads through gaps that are too narrow for the governor's
+// margin, which are taken slowly.
+void Planner::follow_route(ImageView<const std::uint8_t> type, const PlanInput& input, Plan& plan) const {
+  if (!input.route->found) return;
+  plan.blocked = false;
+  plan.direction = input.route->direction;
+  const double corridor_m = vehicle_.radius_m + kRouteCorridor;
+  const ClearDistance clear = clear_distance(type, geometry_, plan.direction, params_.blind_zone_m, corridor_m);
+  plan.clear_distance_m = clear.metres;
+  plan.clear_end = clear.end;
+  double speed_mps = governed_speed(clear.metres, governor_);
+  const double creep = std::min(params_.unknown_speed_mps, vehicle_.max_speed_mps);
+  if (clear.metres > vehicle_.radius_m + kCreepClear) speed_mps = std::max(speed_mps, creep);
+  for (const double swept :
+       {0.0, plan.direction / 2, std::clamp(kCarriedTurn * input.heading_change, -radians(60), radians(60))}) {
+    const double obstacle_m = corridor_obstacle_m(type, geometry_, swept, corridor_m);
+    double allowed = governed_speed(obstacle_m, governor_);
+    if (obstacle_m > vehicle_.radius_m + kCreepClear) allowed = std::max(allowed, creep);
+    speed_mps = std::min(speed_mps, allowed);
+  }
+  plan.speed_mps = speed_mps * std::max(0.0, 1 - std::abs(plan.direction) / kTurnsInPlace);
+  plan.turn_rate_rps = turn_rate(plan.direction, vehicle_.steering_gain, radians(vehicle_.max_turn_rate_dps));
+  plan.wheels = wheel_speeds(plan.speed_mps, plan.turn_rate_rps, vehicle_.track_m);
 }
 
 void Planner::block_sectors(double heading_change, PlanState& state, Plan& plan) const {

@@ -25,6 +25,7 @@
 #include "app/nav/clear_distance.h"
 #include "app/nav/params.h"
 #include "app/nav/rolling_map.h"
+#include "app/nav/route.h"
 #include "app/nav/speed_governor.h"
 #include "app/nav/steering.h"
 #include "app/nav/vfh.h"
@@ -47,6 +48,8 @@ struct PlanInput {
   // Where the map's frame was taken: for the pipeline's rolling map, which is left out without it. The planner looks at the map
   // only.
   std::optional<MapPose> pose = std::nullopt;
+  // The planner "route": what the search on the rolling map has found; without it, it plans as "vfh+" does.
+  std::optional<Route> route = std::nullopt;
 };
 
 // A vehicle that is hemmed in turns to one side until a direction opens, and to the same side if that closes again soon: which
@@ -125,6 +128,7 @@ class Planner {
   double speed_while_turning(ImageView<const std::uint8_t> type, double direction, double heading_change) const;
   std::optional<double> squeeze(ImageView<const std::uint8_t> type, const PlanInput& input, Plan& plan) const;
   void be_patient(const PlanInput& input, PlanState& state, Plan& plan) const;
+  void follow_route(ImageView<const std::uint8_t> type, const PlanInput& input, Plan& plan) const;
   void recover(double heading_change, PlanState& state, Plan& plan) const;
   double speed_along(ImageView<const std::uint8_t> type, const Plan& plan) const;
 
@@ -140,6 +144,7 @@ class Planner {
   bool creep_ = false;
   bool is_vfh_ = false;
   bool is_star_ = false;
+  bool is_route_ = false;
 };
 
 }  // namespace lakshya

@@ -382,4 +382,19 @@ Status RollingMap::view(ImageView<const std::uint8_t> frame, ImageView<std::uint
   return Status::ok;
 }
 
+Status RollingMap::window(std::int64_t x, std::int64_t y, ImageView<std::uint8_t> type) const {
+  if (!started_) return Status::bad_argument;
+  for (int v = 0; v < type.height; ++v) {
+    for (int u = 0; u < type.width; ++u) {
+      std::uint8_t& out = type.at(u, v);
+      out = kCellUnknown;
+      if (!holds(x + u, y + v)) continue;
+      const int evidence = memory_.evidence[index(x + u, y + v)];
+      if (evidence >= kFree + kBelieved) out = kCellObstacle;
+      if (evidence == kFree) out = kCellUnoccupied;
+    }
+  }
+  return Status::ok;
+}
+
 }  // namespace lakshya

@@ -89,6 +89,10 @@ class RollingMap {
   // Beyond the square's edge `frame` counts alone. size_mismatch; bad_argument: nothing was added yet.
   Status view(ImageView<const std::uint8_t> frame, ImageView<std::uint8_t> type) const;
 
+  // The cells from world cell (x, y) on as they lie in the world: column u east of x, row v north of y; CellType. What lies outside
+  // the square is unknown. bad_argument: nothing was added yet.
+  Status window(std::int64_t x, std::int64_t y, ImageView<std::uint8_t> type) const;
+
  private:
   struct Sight;  // of one frame
   struct Run;

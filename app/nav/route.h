@@ -1,0 +1,102 @@
+// The way to the target through everything that the rolling map knows: docs/contract.md section 5.
+//
+// Dijkstra's search on a square window of the map about the vehicle, fixed to the world: cells nearer to an obstacle cell than the
+// vehicle's radius and a margin are closed, cells within a comfortable distance cost more the nearer they are (so that a way keeps
+// to the middle of a gap), unknown cells cost more than free ones, and unknown cells right before the camera, which it should have
+// seen long ago, still more. The way of the plan before costs less than others: of two that are about as good the vehicle keeps to
+// the one that it has begun. A target beyond the window is sought by the way to the border that leaves least to go.
+// The direction is that of the farthest point of the way, up to reach_m ahead, that a straight line reaches without coming nearer
+// to obstacles than the way itself does.
+//
+// Costs are integers, the search visits each cell once, and all memory is the caller's: the time is bounded.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "app/nav/rolling_map.h"
+#include "kernels/base/image_view.h"
+#include "kernels/base/status.h"
+
+namespace lakshya {
+
+struct RouteParams {
+  double radius_m = 0.35;       // the vehicle's
+  double margin_m = 0.05;       // kept at least between the vehicle and the middle of an obstacle cell
+  double comfort_m = 0.40;      // within which of the vehicle's side an obstacle is avoided where that is cheap
+  double reach_m = 1.2;         // how far ahead the direction aims
+  double blind_m = 1.0;         // what is nearer than this the camera does not see
+  double view = 0.6;            // rad, half of the camera's field of view
+  double unknown_near_m = 2.0;  // unknown cells in view and nearer than this are very likely not free
+};
+
+inline constexpr int kRouteSide = 160;  // cells of the window's side
+inline constexpr int kRouteCells = kRouteSide * kRouteSide;
+inline constexpr int kRouteMostPoints = 1024;
+
+// The caller's, kRouteCells each.
+struct RouteMemory {
+  std::span<std::uint8_t> type;
+  std::span<std::uint8_t> distance2;  // squared, cells; saturated
+  std::span<std::uint8_t> factor;     // cost of a step, tenths
+  std::span<std::int32_t> cost;
+  std::span<std::int32_t> next;  // lists of cells of one cost
+  std::span<std::int32_t> previous;
+  std::span<std::uint8_t> from;  // direction of the step that led here
+};
+
+struct Route {
+  bool found = false;
+  double direction = 0;         // rad, from straight ahead, counter-clockwise
+  double straight_m = 0;        // to the point that it aims at
+  double cost_m = 0;            // of the whole way, as metres in the open
+  bool reaches_target = false;  // false: only near it, or to the window's border
+};
+
+class RoutePlanner {
+ public:
+  // bad_argument: a parameter that is not finite or out of range; size_mismatch: the memory. Keeps the memory.
+  Status configure(const RouteParams& params, std::int32_t cell_mm, const RouteMemory& memory);
+  // Forgets the way of the plan before.
+  void reset() { count_ = 0; }
+
+  // The map as of its last add(), made at `pose`; target in the world frame, metres. bad_argument: not finite.
+  Status plan(const RollingMap& map, const Pose& pose, double target_east_m, double target_north_m, Route& route);
+
+ private:
+  struct Point {
+    std::int64_t x = 0;  // world cells
+    std::int64_t y = 0;
+  };
+  // A window's cell, or a place in it in cells.
+  static int index(int x, int y) { return y * kRouteSide + x; }
+  static bool inside(int x, int y) { return x >= 0 && x < kRouteSide && y >= 0 && y < kRouteSide; }
+
+  void measure_distances();
+  void price_cells(const Pose& pose, double x, double y);
+  void search(int start, int goal);
+  void push(int cell, std::int32_t cost);
+  void remove(int cell);
+  int choose_end(double goal_x, double goal_y) const;
+  void follow_back(int end);
+  bool straight_is_free(double x, double y, double to_x, double to_y, int least_distance2) const;
+  void aim(const Pose& pose, double x, double y, Route& route) const;
+
+  static constexpr int kBuckets = 4096;  // more than the most expensive step
+  RouteParams params_;
+  double cell_m_ = 0.1;
+  int closed2_ = 16;
+  std::array<std::uint8_t, 256> price_{};  // factor by squared distance
+  RouteMemory memory_;
+  std::array<std::int32_t, kBuckets> bucket_{};
+  std::int64_t x_begin_ = 0;  // the window's corner, world cells
+  std::int64_t y_begin_ = 0;
+  int start_ = 0;
+  std::array<Point, kRouteMostPoints> points_{};  // of the last way, from the vehicle on
+  int count_ = 0;
+};
+
+}  // namespace lakshya
