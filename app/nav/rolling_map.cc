@@ -1,6 +1,7 @@
 #include "app/nav/rolling_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -394,7 +395,34 @@ Status RollingMap::window(std::int64_t x, std::int64_t y, ImageView<std::uint8_t
       if (evidence == kFree) out = kCellUnoccupied;
     }
   }
+  thicken(type);
   return Status::ok;
+}
+
+// What was never seen behind a face counts as an obstacle there, too; see view().
+void RollingMap::thicken(ImageView<std::uint8_t> type) {
+  constexpr std::uint8_t kBehind = 255;  // until all are found
+  constexpr std::array<std::array<int, 2>, 4> kSides{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+  for (int v = 0; v < type.height; ++v) {
+    for (int u = 0; u < type.width; ++u) {
+      if (type.at(u, v) != kCellObstacle) continue;
+      for (const auto& [du, dv] : kSides) {
+        for (int n = 1; n <= static_cast<int>(kThickness); ++n) {
+          const int x = u + n * du;
+          const int y = v + n * dv;
+          if (x < 0 || x >= type.width || y < 0 || y >= type.height) break;
+          std::uint8_t& there = type.at(x, y);
+          if (there != kCellUnknown && there != kBehind) break;
+          there = kBehind;
+        }
+      }
+    }
+  }
+  for (int v = 0; v < type.height; ++v) {
+    for (int u = 0; u < type.width; ++u) {
+      if (type.at(u, v) == kBehind) type.at(u, v) = kCellObstacle;
+    }
+  }
 }
 
 }  // namespace lakshya

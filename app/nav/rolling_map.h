@@ -90,11 +90,12 @@ class RollingMap {
   Status view(ImageView<const std::uint8_t> frame, ImageView<std::uint8_t> type) const;
 
   // The cells from world cell (x, y) on as they lie in the world: column u east of x, row v north of y; CellType. What lies outside
-  // the square is unknown. bad_argument: nothing was added yet.
+  // the square is unknown. Obstacles have something behind them as in view(). bad_argument: nothing was added yet.
   Status window(std::int64_t x, std::int64_t y, ImageView<std::uint8_t> type) const;
 
  private:
   struct Sight;  // of one frame
+  static void thicken(ImageView<std::uint8_t> type);
   struct Run;
 
   bool holds(std::int64_t x, std::int64_t y) const;

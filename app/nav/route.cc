@@ -19,6 +19,9 @@ constexpr int kUnknown = 12;      // ... an unknown one
 constexpr int kUnknownNear = 80;  // ... one that the camera should have seen
 constexpr int kEscape = 150;      // ... one that is too near to an obstacle, on the way out from there
 constexpr int kEscapeCells = 6;
+constexpr int kCorner = 60;  // share of the way's least squared distance that a straight line keeps, percent
+constexpr int kFirstCells =
+    3;  // of the way that are aimed at even where no straight line leads: the vehicle turns first
 constexpr double kKept = 0.7;  // share of its cost that a cell of the last way has
 constexpr int kStraight = 10;  // length of a step, tenths of a cell
 constexpr int kDiagonal = 14;
@@ -268,8 +271,10 @@ void RoutePlanner::aim(const Pose& pose, double x, double y, Route& route) const
     least2 = std::min<int>(least2, memory_.distance2[static_cast<std::size_t>(index(u, v))]);
     const double to_x = u + 0.5;
     const double to_y = v + 0.5;
-    const bool is_first = k == 0;
-    if (!is_first && (std::hypot(to_x - x, to_y - y) > reach || !straight_is_free(x, y, to_x, to_y, least2))) break;
+    // A straight line may cut a corner of the way, but not come much nearer to obstacles.
+    const int allowed2 = std::max(closed2_, kCorner * least2 / 100);
+    const bool begins = k < kFirstCells;
+    if (!begins && (std::hypot(to_x - x, to_y - y) > reach || !straight_is_free(x, y, to_x, to_y, allowed2))) break;
     aim_x = to_x;
     aim_y = to_y;
   }

@@ -99,7 +99,7 @@ Status Simulation::produce(Nanoseconds time, std::uint64_t number, ImageView<std
 }
 
 std::vector<std::string> simulated_vehicle_settings(bool indoor) {
-  std::vector<std::string> sets{"camera.height_m=0.6", "camera.pitch_deg=10", "camera.forward_m=0.2",
+  std::vector<std::string> sets{"camera.height_m=0.7", "camera.pitch_deg=5", "camera.forward_m=0.2",
                                 "camera.left_m=0.06", "planner.name=route",
                                 "planner.blind_zone_m=0.5"};
   if (!indoor) sets.insert(sets.end(), {"vehicle.max_speed_mps=1.5", "planner.active_radius_m=4"});
