@@ -70,6 +70,7 @@ class RollingMap {
   static constexpr int kCleared = 6;
   static constexpr int kClearedFar = 2;
   static constexpr int kSunk = 2;
+  static constexpr std::size_t kThickness = 2;
   static constexpr double kEdgeMarginM = 0.05;  // of the upper edge above a remembered height
   static constexpr std::int64_t kTickNs = 10'000'000;
   static constexpr std::uint32_t kSweepTicks = 50;  // what is old is looked for so often
@@ -84,8 +85,8 @@ class RollingMap {
   Status add(const NavGrid& frame, const MapPose& at);
 
   // The map as seen from the pose of the last add(): cells of CellType, forward half-plane. Every believed obstacle marks the
-  // cell that holds its centre, and so do up to kThickness cells to its east, west, north and south that were never seen: a face has something behind it. All
-  // others ask the world cell below their own centre, and are unknown where that is an obstacle.
+  // cell that holds its centre, and so do up to kThickness cells to its east, west, north and south that were never seen: a face
+  // has something behind it. All others ask the world cell below their own centre, and are unknown where that is an obstacle.
   // Beyond the square's edge `frame` counts alone. size_mismatch; bad_argument: nothing was added yet.
   Status view(ImageView<const std::uint8_t> frame, ImageView<std::uint8_t> type) const;
 
@@ -94,6 +95,8 @@ class RollingMap {
   Status window(std::int64_t x, std::int64_t y, ImageView<std::uint8_t> type) const;
 
  private:
+  static constexpr std::uint8_t kFree = 1;  // evidence
+
   struct Sight;  // of one frame
   static void thicken(ImageView<std::uint8_t> type);
   struct Run;

@@ -44,8 +44,9 @@ TEST_P(ClosedLoop, AmongDiscs) {
     way_m += result.arrived ? result.way_m : 0;
     least_gap_m = std::min(least_gap_m, result.least_gap_m);
   }
-  std::printf("%s: %d of %d arrived, %d collided, mean time %.1f s, mean way %.1f m, least gap %.3f m\n", GetParam(),
-              arrived, kWorlds, collided, time_s / std::max(arrived, 1), way_m / std::max(arrived, 1), least_gap_m);
+  std::printf("%s: %d of %d arrived, %d collided, mean time %.1f s, mean way %.1f m, least gap %.3f m\n",
+              GetParam(), arrived, kWorlds, collided, time_s / std::max(arrived, 1), way_m / std::max(arrived, 1),
+              least_gap_m);
   EXPECT_EQ(collided, 0);
   EXPECT_GE(arrived, kWorlds * 97 / 100);
 }
