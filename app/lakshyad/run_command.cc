@@ -94,6 +94,8 @@ void set_rate(const std::string& rate, VehicleConfig& config, SessionOptions& se
 std::uint64_t take_source(const ReplayOptions& o, VehicleConfig& config) {
   config.drivers = {
       .camera = "folder", .servo = "record", .unsupervised_speed_mps = config.drivers.unsupervised_speed_mps};
+  // Where the recorded vehicle went is not known: a map carried along by wheels that nobody has would be smeared.
+  config.map.rolling = "no";
   name_recording(config, o.source, o.calibration);
   const auto pairs = static_cast<std::uint64_t>(RecordedFolder(config.folder).count());
   config.folder.repeat = o.loop.session.limits.frames > pairs ? "yes" : "no";

@@ -126,7 +126,7 @@ Status Planner::plan(ImageView<const std::uint8_t> type, const PlanInput& input,
     return Status::ok;
   }
   std::optional<double> chosen = choose(type, input, next);
-  if (!chosen && !is_vfh_) chosen = squeeze(type, input, next);
+  if (!chosen && !is_vfh_ && state.recovery.active) chosen = squeeze(type, input, next);
   if (chosen) {
     next.blocked = false;
     next.direction = *chosen;
@@ -186,14 +186,15 @@ void Planner::block_sectors(double heading_change, PlanState& state, Plan& plan)
 
 std::optional<double> Planner::squeeze(ImageView<const std::uint8_t> type, const PlanInput& input,
                                        Plan& plan) const {
-  StarCells cells;
-  const double radius_m =
+  const double reach_m =
       std::min(params_.active_radius_m, kNarrowReach * (vehicle_.radius_m + vehicle_.safety_distance_m));
-  find_star_cells(type, geometry_, radius_m, cells);
+  StarCells cells;
+  find_star_cells(type, geometry_, reach_m, cells);
+  if (cells.count == 0) return std::nullopt;
+  const PolarHistogram histogram = star_histogram(cells, geometry_, reach_m, corridor_m_);
+  const SectorMask blocked = binary_histogram(histogram, {}, params_.threshold_high, params_.threshold_high);
   Plan narrow = plan;
-  narrow.histogram = star_histogram(cells, geometry_, radius_m, vehicle_.radius_m + vehicle_.safety_distance_m / 2);
-  narrow.binary = binary_histogram(narrow.histogram, {}, params_.threshold_high, params_.threshold_high);
-  narrow.masked = mask_turning_circles(narrow.binary, type, geometry_, circles_);
+  narrow.masked = mask_turning_circles(blocked, type, geometry_, circles_);
   choose_sectors(type, narrow);
   narrow.openings = find_openings(narrow.selectable, narrow.masked);
   const Wishes wishes{.target = input.target, .heading = input.heading, .previous = input.previous};

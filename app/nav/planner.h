@@ -7,8 +7,9 @@
 // Directions are radians counter-clockwise from straight ahead. Distances are from the turning centre, so that the
 // vehicle's radius is added to its stop_margin_m.
 //
-// Where nothing is open VFH+ and VFH* look once more with half of the safety distance, and creep there (unknown_speed_mps): the map's
-// cells make a gap up to a cell and a half narrower than it is, and a vehicle that has come into a narrow place must get out.
+// Where nothing has been open for two plans VFH+ and VFH* look once more without the safety distance, no farther than the next gap,
+// and creep there (unknown_speed_mps): the map's cells make a gap up to a cell and a half narrower than it is, and a vehicle that
+// has come into a narrow place must get out.
 //
 // Unknown cells (PlannerParams::unknown). Either way a sector is selectable only when it is seen, is not blocked
 // and has a clear distance above 0 on its centre ray.
@@ -87,7 +88,7 @@ struct Plan {
   bool blocked = true;  // no candidate: everything below is zero, and `recovery` says where to turn on the spot
   Side recovery = Side::left;
   bool waits = false;      // the direction is still the previous one, and the speed 0: see kPatience
-  bool squeezes = false;   // nothing is open but with half of the safety distance: creeping
+  bool squeezes = false;   // nothing is open but without the safety distance: creeping
   bool hemmed_in = false;  // blocked, and a full turn has found nothing: better stand still
   double direction = 0;
   double clear_distance_m = 0;

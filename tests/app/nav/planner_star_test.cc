@@ -123,7 +123,7 @@ TEST(PlannerMemory, RecoveryKeepsItsSideAndEndsAfterAFullTurn) {
   EXPECT_FALSE(trial.plan().hemmed_in);
 }
 
-// 0.88 m between two posts: too narrow with all of the safety distance, wide enough with half of it.
+// 1 m between two posts: too narrow with the safety distance, wide enough without it. First it stops.
 TEST(PlannerMemory, ANarrowGapIsCreptThroughWhenNothingElseIsOpen) {
   Trial trial;
   trial.rows(8, 9, kCellObstacle);
@@ -131,13 +131,15 @@ TEST(PlannerMemory, ANarrowGapIsCreptThroughWhenNothingElseIsOpen) {
   trial.block(0, 8, 0, 24, kCellObstacle);
   trial.block(0, 8, 36, 60, kCellObstacle);
   trial.vehicle.safety_distance_m = 0.2;
-  const Plan plan = trial.fresh();
+  ASSERT_TRUE(trial.fresh().blocked);
+  const Plan plan = trial.plan();
   ASSERT_FALSE(plan.blocked);
   EXPECT_TRUE(plan.squeezes);
   EXPECT_NEAR(degrees(plan.direction), 0, 2.6);
   EXPECT_LE(plan.speed_mps, trial.params.unknown_speed_mps);
   trial.vehicle.radius_m = 0.5;
-  EXPECT_TRUE(trial.fresh().blocked);
+  trial.fresh();
+  EXPECT_TRUE(trial.plan().blocked);
 }
 
 // What is beside the vehicle's way while it still turns limits its speed.

@@ -174,7 +174,7 @@ TEST_F(PlanCommandTest, WrongUseIsAParseError) {
   }
   EXPECT_NO_THROW(run(free_, {"--target", "-180"}));
   EXPECT_THROW(run(free_, {}), CLI::ParseError);
-  EXPECT_THROW(run(free_, {"--target", "0", "--planner", "vfh*"}), CLI::ParseError);
+  EXPECT_THROW(run(free_, {"--target", "0", "--planner", "vfh**"}), CLI::ParseError);
   EXPECT_THROW(run(free_, {"--target", "0", "--unknown-option"}), CLI::ParseError);
 }
 
