@@ -284,14 +284,15 @@ Status Pipeline::plan(const PlanInput& input, FrameResult& result) {
   if (!routes_ || !input.pose) return planner_.plan(result.map, input, plan_state_, result.plan);
   PlanInput with_route = input;
   const Pose& pose = input.pose->pose;
-  constexpr double kFarAway = 1000;  // of a direction without a place
+  constexpr double kCarriedTurn = 2;  // frames for which the vehicle goes on turning as it does
+  constexpr double kFarAway = 1000;   // of a direction without a place
   const double distance_m = std::min(input.target_distance_m, kFarAway);
   Route route;
-  const Status found =
-      route_planner_.plan(rolling_map_, pose, pose.east_m + distance_m * std::cos(pose.yaw + input.target),
-                          pose.north_m + distance_m * std::sin(pose.yaw + input.target), route);
+  const Status found = route_planner_->plan(
+      rolling_map_, pose, pose.east_m + distance_m * std::cos(pose.yaw + input.target),
+      pose.north_m + distance_m * std::sin(pose.yaw + input.target), kCarriedTurn * input.heading_change, route);
   if (found != Status::ok) return found;
-  with_route.route = route;
+  with_route.route = RouteAim{route.found, route.direction, route.clear_m, route.clear_end, route.swept_m};
   return planner_.plan(result.map, with_route, plan_state_, result.plan);
 }
 

@@ -13,10 +13,8 @@ namespace {
 constexpr double kNarrowReach = 3;
 // A turn goes on for about as many frames after a plan has ended it.
 constexpr double kCarriedTurn = 2.5;
-// On a route: half of the corridor that must be free, beyond the vehicle's radius; the least way ahead of the body that is crept
-// on; the direction from which on the vehicle turns in place.
-constexpr double kRouteCorridor = 0.03;
-constexpr double kCreepClear = 0.15;
+// On a route: the least way ahead of the body that is crept on, and the direction from which on the vehicle turns in place.
+constexpr double kCreepClear = 0.10;
 constexpr double kTurnsInPlace = radians(60);
 
 bool millimetres(double metres, std::int32_t& mm) {
@@ -120,7 +118,7 @@ Status Planner::plan(ImageView<const std::uint8_t> type, const PlanInput& input,
   next.openings = find_openings(next.selectable, next.masked);
 
   if (is_route_ && input.route) {
-    follow_route(type, input, next);
+    follow_route(*input.route, next);
     recover(input.heading_change, state, next);
     plan = next;
     return Status::ok;
@@ -147,26 +145,19 @@ Status Planner::plan(ImageView<const std::uint8_t> type, const PlanInput& input,
   return Status::ok;
 }
 
-// What lies along the way is judged like everywhere else; the way itself leads through gaps that are too narrow for the governor's
-// margin, which are taken slowly.
-void Planner::follow_route(ImageView<const std::uint8_t> type, const PlanInput& input, Plan& plan) const {
-  if (!input.route->found) return;
+// A way may lead through gaps that are too narrow for the governor's margin: these are taken slowly.
+void Planner::follow_route(const RouteAim& route, Plan& plan) const {
+  if (!route.found) return;
   plan.blocked = false;
-  plan.direction = input.route->direction;
-  const double corridor_m = vehicle_.radius_m + kRouteCorridor;
-  const ClearDistance clear = clear_distance(type, geometry_, plan.direction, params_.blind_zone_m, corridor_m);
-  plan.clear_distance_m = clear.metres;
-  plan.clear_end = clear.end;
-  double speed_mps = governed_speed(clear.metres, governor_);
+  plan.direction = route.direction;
+  plan.clear_distance_m = route.clear_m;
+  plan.clear_end = route.clear_end;
   const double creep = std::min(params_.unknown_speed_mps, vehicle_.max_speed_mps);
-  if (clear.metres > vehicle_.radius_m + kCreepClear) speed_mps = std::max(speed_mps, creep);
-  for (const double swept :
-       {0.0, plan.direction / 2, std::clamp(kCarriedTurn * input.heading_change, -radians(60), radians(60))}) {
-    const double obstacle_m = corridor_obstacle_m(type, geometry_, swept, corridor_m);
-    double allowed = governed_speed(obstacle_m, governor_);
-    if (obstacle_m > vehicle_.radius_m + kCreepClear) allowed = std::max(allowed, creep);
-    speed_mps = std::min(speed_mps, allowed);
-  }
+  const auto allowed = [&](double clear_m) {
+    const double governed = governed_speed(clear_m, governor_);
+    return clear_m > vehicle_.radius_m + kCreepClear ? std::max(governed, creep) : governed;
+  };
+  const double speed_mps = std::min(allowed(route.clear_m), allowed(route.swept_m));
   plan.speed_mps = speed_mps * std::max(0.0, 1 - std::abs(plan.direction) / kTurnsInPlace);
   plan.turn_rate_rps = turn_rate(plan.direction, vehicle_.steering_gain, radians(vehicle_.max_turn_rate_dps));
   plan.wheels = wheel_speeds(plan.speed_mps, plan.turn_rate_rps, vehicle_.track_m);

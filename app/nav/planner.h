@@ -39,6 +39,17 @@
 
 namespace lakshya {
 
+// What a search for the way to the target (route.h) has found.
+struct RouteAim {
+  bool found = false;
+  double direction = 0;  // rad, from straight ahead
+  // How far the vehicle's side may go that way, to an obstacle or to the first cell that is not known to be free; and, of the
+  // directions that it sweeps until it has turned there, the least that may be gone. From the turning centre, metres.
+  double clear_m = 0;
+  ClearEnd clear_end = ClearEnd::unknown;
+  double swept_m = 0;
+};
+
 struct PlanInput {
   double target = 0;
   double target_distance_m = std::numeric_limits<double>::infinity();  // vfh*: it looks no farther ahead
@@ -129,7 +140,7 @@ class Planner {
   double speed_while_turning(ImageView<const std::uint8_t> type, double direction, double heading_change) const;
   std::optional<double> squeeze(ImageView<const std::uint8_t> type, const PlanInput& input, Plan& plan) const;
   void be_patient(const PlanInput& input, PlanState& state, Plan& plan) const;
-  void follow_route(ImageView<const std::uint8_t> type, const PlanInput& input, Plan& plan) const;
+  void follow_route(const RouteAim& route, Plan& plan) const;
   void recover(double heading_change, PlanState& state, Plan& plan) const;
   double speed_along(ImageView<const std::uint8_t> type, const Plan& plan) const;
 

@@ -259,6 +259,24 @@ bool RoutePlanner::straight_is_free(double x, double y, double to_x, double to_y
   return true;
 }
 
+// Along a straight line of the turning centre: to the obstacle before which the vehicle's side comes too near to one (nearer than it
+// is already, where it is too near), or to the first cell beyond the blind zone that is not known to be free.
+ClearDistance RoutePlanner::clear_along(double x, double y, double angle) const {
+  const double dx = std::cos(angle) / 2;
+  const double dy = std::sin(angle) / 2;
+  const int least2 = std::min<int>(closed2_, memory_.distance2[static_cast<std::size_t>(start_)]);
+  const double blind = params_.blind_m / cell_m_ + 1;
+  for (int k = 1;; ++k) {
+    const int u = static_cast<int>(std::floor(x + k * dx));
+    const int v = static_cast<int>(std::floor(y + k * dy));
+    const double length = k / 2.0;
+    if (!inside(u, v)) return {length * cell_m_, ClearEnd::unknown};
+    const auto i = static_cast<std::size_t>(index(u, v));
+    if (memory_.distance2[i] < least2) return {length * cell_m_ + params_.radius_m, ClearEnd::obstacle};
+    if (memory_.type[i] == kCellUnknown && length > blind) return {length * cell_m_, ClearEnd::unknown};
+  }
+}
+
 void RoutePlanner::aim(const Pose& pose, double x, double y, Route& route) const {
   const double reach = params_.reach_m / cell_m_;
   int least2 = std::numeric_limits<int>::max();
@@ -283,7 +301,7 @@ void RoutePlanner::aim(const Pose& pose, double x, double y, Route& route) const
 }
 
 Status RoutePlanner::plan(const RollingMap& map, const Pose& pose, double target_east_m, double target_north_m,
-                          Route& route) {
+                          double turning, Route& route) {
   if (!std::isfinite(target_east_m) || !std::isfinite(target_north_m)) return Status::bad_argument;
   route = {};
   x_begin_ = cell_of(pose.east_m, cell_m_) - kRouteSide / 2;
@@ -308,6 +326,12 @@ Status RoutePlanner::plan(const RollingMap& map, const Pose& pose, double target
   route.cost_m = memory_.cost[static_cast<std::size_t>(end)] * cell_m_ / (kStraight * kOpen);
   route.reaches_target = std::hypot(end % kRouteSide + 0.5 - goal_x, end / kRouteSide + 0.5 - goal_y) <= 1;
   aim(pose, x, y, route);
+  const ClearDistance clear = clear_along(x, y, pose.yaw + route.direction);
+  route.clear_m = clear.metres;
+  route.clear_end = clear.end;
+  route.swept_m = std::numeric_limits<double>::infinity();
+  for (const double swept : {0.0, route.direction / 2, turning})
+    route.swept_m = std::min(route.swept_m, clear_along(x, y, pose.yaw + swept).metres);
   return Status::ok;
 }
 

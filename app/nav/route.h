@@ -17,6 +17,7 @@
 #include <optional>
 #include <span>
 
+#include "app/nav/clear_distance.h"
 #include "app/nav/rolling_map.h"
 #include "kernels/base/image_view.h"
 #include "kernels/base/status.h"
@@ -50,8 +51,12 @@ struct RouteMemory {
 
 struct Route {
   bool found = false;
-  double direction = 0;         // rad, from straight ahead, counter-clockwise
-  double straight_m = 0;        // to the point that it aims at
+  double direction = 0;   // rad, from straight ahead, counter-clockwise
+  double straight_m = 0;  // to the point that it aims at
+  // See RouteAim (planner.h).
+  double clear_m = 0;
+  ClearEnd clear_end = ClearEnd::unknown;
+  double swept_m = 0;
   double cost_m = 0;            // of the whole way, as metres in the open
   bool reaches_target = false;  // false: only near it, or to the window's border
 };
@@ -64,7 +69,9 @@ class RoutePlanner {
   void reset() { count_ = 0; }
 
   // The map as of its last add(), made at `pose`; target in the world frame, metres. bad_argument: not finite.
-  Status plan(const RollingMap& map, const Pose& pose, double target_east_m, double target_north_m, Route& route);
+  // turning: the angle that the vehicle will turn further even if it is told otherwise, rad.
+  Status plan(const RollingMap& map, const Pose& pose, double target_east_m, double target_north_m, double turning,
+              Route& route);
 
  private:
   struct Point {
@@ -83,6 +90,7 @@ class RoutePlanner {
   int choose_end(double goal_x, double goal_y) const;
   void follow_back(int end);
   bool straight_is_free(double x, double y, double to_x, double to_y, int least_distance2) const;
+  ClearDistance clear_along(double x, double y, double angle) const;
   void aim(const Pose& pose, double x, double y, Route& route) const;
 
   static constexpr int kBuckets = 4096;  // more than the most expensive step

@@ -17,7 +17,8 @@ CellThresholds thresholds_at(const ScoreGeometry& g, double cell, double z) {
   const double points = g.density * f2 * cell * g.reference_height_m / (z * z) * smear;
   const double ground = g.floor_density * f2 * cell * cell * g.height_m / (z * z * z);
   const double least = g.min_count;
-  return {at_least(points, least), at_least(ground, 1.0), at_least(ground, least)};
+  // A false drop-off stops a vehicle where there is nothing; a true one that matters fills its cells.
+  return {at_least(points, least), at_least(ground, 1.0), at_least(ground, 2 * least)};
 }
 
 }  // namespace
