@@ -2,7 +2,7 @@
 //
 // A surface must show a density of points that falls with distance (the paper's condition on average point density):
 //   n_min(z)   = max(n_abs, rho f^2 cell h_ref / z^2 * min(1, cell / (2.5 sigma_z))),  sigma_z = z^2 sigma_d / (f B)
-//   n_floor(z) = max(1, rho_f f^2 cell^2 H / z^3);  n_below likewise, at least n_abs
+//   n_floor(z) = max(1, rho_f f^2 cell^2 H / z^3);  n_below likewise, at least 2 n_abs
 // In this order:
 //   count >= n_min and mean height > h_min             obstacle
 //   below_count >= n_below and > floor_count           obstacle (drop-off)

@@ -98,7 +98,7 @@ TEST(ScoreTable, FollowsTheFormula) {
   const CellThresholds far = threshold(level_camera(), 59, 100);
   EXPECT_EQ(far.points, 4U);
   EXPECT_EQ(far.floor, 1U);
-  EXPECT_EQ(far.below, 4U);
+  EXPECT_EQ(far.below, 8U);
 }
 
 TEST(ScoreTable, NothingIsExpectedNearerThanTheCameraSees) {

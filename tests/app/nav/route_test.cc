@@ -1,0 +1,196 @@
+// The way through the rolling map, on maps made by hand.
+#include "app/nav/route.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "app/core/image.h"
+#include "app/nav/sectors.h"
+#include "kernels/base/units.h"
+#include "tests/support/count_allocations.h"
+
+namespace lakshya {
+namespace {
+
+// A rolling map that was filled through frames which look in all directions from the origin: what is not an obstacle is free.
+class RouteTest : public ::testing::Test {
+ protected:
+  RouteTest() {
+    params_.size_m = 30;
+    params_.near_m = 20;
+    params_.camera.angle = 1.5;
+    const auto side = static_cast<std::size_t>(rolling_map_side(geometry_, params_.size_m));
+    evidence_.assign(side * side, 0);
+    height_.assign(side * side, 0);
+    seen_.assign(side * side, 0);
+    EXPECT_EQ(map_.configure(params_, geometry_, {evidence_, height_, seen_}), Status::ok);
+    RouteMemory memory{bytes_[0], bytes_[1], bytes_[2], words_[0], words_[1], words_[2], bytes_[3]};
+    EXPECT_EQ(planner_.configure(route_params_, geometry_.cell_mm, memory), Status::ok);
+  }
+
+  // An obstacle cell wherever `is_obstacle(east, north)` of its centre.
+  template <class F>
+  void see(F is_obstacle) {
+    for (const double yaw : {0.0, std::numbers::pi / 2, std::numbers::pi, -std::numbers::pi / 2}) {
+      const Pose pose{0, 0, yaw};
+      for (int r = 0; r < geometry_.rows; ++r) {
+        for (int c = 0; c < geometry_.cols; ++c) {
+          const double forward = (r + 0.5) * 0.1;
+          const double left = (geometry_.cols / 2.0 - c - 0.5) * 0.1;
+          const double east = forward * std::cos(yaw) - left * std::sin(yaw);
+          const double north = forward * std::sin(yaw) + left * std::cos(yaw);
+          const bool obstacle = is_obstacle(east, north);
+          type_.view().at(c, r) = obstacle ? kCellObstacle : kCellUnoccupied;
+          count_.view().at(c, r) = obstacle ? 10 : 0;
+          height_sum_.view().at(c, r) = obstacle ? 3000 : 0;
+        }
+      }
+      NavGrid grid;
+      grid.geometry = geometry_;
+      grid.type = type_.view();
+      grid.count = count_.view();
+      grid.height_sum = height_sum_.view();
+      time_ += 100'000'000;
+      ASSERT_EQ(map_.add(grid, {pose, time_}), Status::ok);
+    }
+  }
+
+  Route plan(double east, double north, const Pose& pose = {}) {
+    Route route;
+    EXPECT_EQ(planner_.plan(map_, pose, east, north, 0, route), Status::ok);
+    return route;
+  }
+
+  GridGeometry geometry_{.rows = 70, .cols = 140, .cell_mm = 100};
+  RollingMapParams params_;
+  RouteParams route_params_;
+  std::vector<std::uint8_t> evidence_;
+  std::vector<std::int16_t> height_;
+  std::vector<std::uint32_t> seen_;
+  Image<std::uint8_t> type_{140, 70};
+  Image<std::uint32_t> count_{140, 70};
+  Image<std::int64_t> height_sum_{140, 70};
+  std::vector<std::uint8_t> bytes_[4] = {
+      std::vector<std::uint8_t>(kRouteCells), std::vector<std::uint8_t>(kRouteCells),
+      std::vector<std::uint8_t>(kRouteCells), std::vector<std::uint8_t>(kRouteCells)};
+  std::vector<std::int32_t> words_[3] = {std::vector<std::int32_t>(kRouteCells),
+                                         std::vector<std::int32_t>(kRouteCells),
+                                         std::vector<std::int32_t>(kRouteCells)};
+  std::int64_t time_ = 0;
+  RollingMap map_;
+  RoutePlanner planner_;
+};
+
+TEST_F(RouteTest, GoesStraightInTheOpen) {
+  see([](double, double) { return false; });
+  const Route route = plan(5, 0);
+  EXPECT_TRUE(route.found);
+  EXPECT_TRUE(route.reaches_target);
+  EXPECT_NEAR(route.direction, 0, radians(5));
+  EXPECT_NEAR(route.cost_m, 5, 0.2);
+  EXPECT_GT(route.clear_m, 4);
+}
+
+TEST_F(RouteTest, TheDirectionIsTheVehiclesOwn) {
+  see([](double, double) { return false; });
+  EXPECT_NEAR(plan(0, 5).direction, radians(90), radians(5));
+  EXPECT_NEAR(plan(0, 5, {0, 0, radians(90)}).direction, 0, radians(5));
+  EXPECT_NEAR(plan(-5, 0, {0, 0, radians(90)}).direction, radians(90), radians(5));
+}
+
+TEST_F(RouteTest, GoesRoundAWallOnItsShorterSide) {
+  see([](double x, double y) { return x > 1.9 && x < 2.1 && y > -3 && y < 1; });
+  const Route route = plan(5, 0);
+  EXPECT_TRUE(route.reaches_target);
+  EXPECT_GT(route.direction, radians(15));
+  EXPECT_GT(route.cost_m, 5);
+}
+
+TEST_F(RouteTest, LeadsThroughAGapThatHoldsTheVehicleAndNotThroughANarrowerOne) {
+  // A wall with an opening of 1.0 m far from the straight line, and one of 0.6 m on it.
+  see([](double x, double y) {
+    const bool open = (y > 1.5 && y < 2.5) || (y > -0.3 && y < 0.3);
+    return x > 1.9 && x < 2.1 && !open;
+  });
+  const Route route = plan(5, 0);
+  EXPECT_TRUE(route.reaches_target);
+  EXPECT_GT(route.direction, radians(20));
+}
+
+TEST_F(RouteTest, KeepsToTheMiddleOfAGap) {
+  see([](double x, double y) { return x > 1.5 && x < 2.5 && std::abs(y) > 0.6; });
+  double least = 1;
+  Pose pose{0, 0.3, 0};
+  for (int k = 0; k < 60; ++k) {
+    const Route route = plan(5, 0.3, pose);
+    ASSERT_TRUE(route.found);
+    pose.yaw += route.direction;
+    pose.east_m += 0.05 * std::cos(pose.yaw);
+    pose.north_m += 0.05 * std::sin(pose.yaw);
+    if (pose.east_m > 1.5 && pose.east_m < 2.5) least = std::min(least, 0.6 - std::abs(pose.north_m));
+  }
+  EXPECT_GT(pose.east_m, 2.5);
+  EXPECT_GT(least, 0.45);
+}
+
+TEST_F(RouteTest, KeepsToTheWayThatItHasBegun) {
+  // Two ways round a block that are as good, and a target that sways between them.
+  see([](double x, double y) { return x > 1.5 && x < 2.5 && std::abs(y) < 1; });
+  const double first = plan(5, 0.1).direction;
+  for (int k = 0; k < 20; ++k) {
+    const Route route = plan(5, k % 2 == 0 ? -0.2 : 0.2);
+    EXPECT_GT(route.direction * first, 0) << k;
+  }
+}
+
+TEST_F(RouteTest, WithoutAWayItGoesAsNearAsItCan) {
+  see([](double x, double y) {
+    return std::max(std::abs(x - 4), std::abs(y)) < 1 && std::max(std::abs(x - 4), std::abs(y)) > 0.7;
+  });
+  const Route route = plan(4, 0);
+  EXPECT_TRUE(route.found);
+  EXPECT_FALSE(route.reaches_target);
+  EXPECT_NEAR(route.direction, 0, radians(10));
+}
+
+TEST_F(RouteTest, SaysHowFarItIsClear) {
+  see([](double x, double) { return x > 3 && x < 3.2; });
+  const Route route = plan(2, 0);
+  // The centre may go up to radius + margin before the wall's first cell, whose middle is at 3.05 m.
+  EXPECT_EQ(route.clear_end, ClearEnd::obstacle);
+  EXPECT_NEAR(route.clear_m, 3.05 - route_params_.margin_m, 0.11);
+}
+
+TEST_F(RouteTest, AVehicleTooNearToAnObstacleFindsTheWayOut) {
+  see([](double x, double y) { return x > 0.2 && x < 0.4 && std::abs(y) < 1; });
+  const Route route = plan(-4, 0);
+  EXPECT_TRUE(route.found);
+  EXPECT_GT(std::abs(route.direction), radians(120));
+}
+
+TEST_F(RouteTest, RefusesWhatIsNoNumberAndWrongMemory) {
+  see([](double, double) { return false; });
+  Route route;
+  EXPECT_EQ(planner_.plan(map_, {}, std::nan(""), 0, 0, route), Status::bad_argument);
+  RouteMemory memory{bytes_[0], bytes_[1], bytes_[2], words_[0], words_[1], words_[2], bytes_[3]};
+  memory.cost = memory.cost.first(10);
+  EXPECT_EQ(planner_.configure(route_params_, 100, memory), Status::size_mismatch);
+  RouteParams wrong;
+  wrong.radius_m = std::nan("");
+  EXPECT_EQ(planner_.configure(wrong, 100, {}), Status::bad_argument);
+}
+
+TEST_F(RouteTest, PlanningDoesNotAllocate) {
+  see([](double x, double y) { return x > 1.9 && x < 2.1 && y > -3 && y < 1; });
+  Route route;
+  const int before = allocations;
+  EXPECT_EQ(planner_.plan(map_, {}, 5, 0, 0, route), Status::ok);
+  EXPECT_EQ(allocations, before);
+}
+
+}  // namespace
+}  // namespace lakshya
