@@ -20,8 +20,7 @@ constexpr int kUnknownNear = 80;  // ... one that the camera should have seen
 constexpr int kEscape = 150;      // ... one that is too near to an obstacle, on the way out from there
 constexpr int kEscapeCells = 6;
 constexpr int kCorner = 60;  // share of the way's least squared distance that a straight line keeps, percent
-constexpr int kFirstCells =
-    3;  // of the way that are aimed at even where no straight line leads: the vehicle turns first
+constexpr int kStopShare = 82;  // of the squared distance that a way keeps: nearer the vehicle stops, percent
 constexpr double kKept = 0.7;  // share of its cost that a cell of the last way has
 constexpr int kStraight = 10;  // length of a step, tenths of a cell
 constexpr int kDiagonal = 14;
@@ -264,7 +263,8 @@ bool RoutePlanner::straight_is_free(double x, double y, double to_x, double to_y
 ClearDistance RoutePlanner::clear_along(double x, double y, double angle) const {
   const double dx = std::cos(angle) / 2;
   const double dy = std::sin(angle) / 2;
-  const int least2 = std::min<int>(closed2_, memory_.distance2[static_cast<std::size_t>(start_)]);
+  const int least2 =
+      std::min<int>(kStopShare * closed2_ / 100, memory_.distance2[static_cast<std::size_t>(start_)]);
   const double blind = params_.blind_m / cell_m_ + 1;
   for (int k = 1;; ++k) {
     const int u = static_cast<int>(std::floor(x + k * dx));
@@ -291,7 +291,7 @@ void RoutePlanner::aim(const Pose& pose, double x, double y, Route& route) const
     const double to_y = v + 0.5;
     // A straight line may cut a corner of the way, but not come much nearer to obstacles.
     const int allowed2 = std::max(closed2_, kCorner * least2 / 100);
-    const bool begins = k < kFirstCells;
+    const bool begins = k == 0;  // no straight line may lead farther than to the next cell
     if (!begins && (std::hypot(to_x - x, to_y - y) > reach || !straight_is_free(x, y, to_x, to_y, allowed2))) break;
     aim_x = to_x;
     aim_y = to_y;

@@ -9,7 +9,7 @@
 namespace lakshya::sim {
 
 // A step of more than this is no ground to drive over.
-inline constexpr double kStepM = 0.05;
+inline constexpr double kStepM = 0.10;
 
 struct Rect {
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // x0 < x1, y0 < y1

@@ -161,7 +161,8 @@ class Drive final : public FrameSink {
   void hit(const Nearest& nearest) {
     end(Ending::collision);
     if (nearest.thing < 0) {
-      result_.hit = result_.hit_kind = "kerb";
+      result_.hit = result_.hit_kind =
+          nearest.patch >= 0 ? world_->ground.patches[static_cast<std::size_t>(nearest.patch)].kind : "ground";
       return;
     }
     const Thing& thing = world_->things[static_cast<std::size_t>(nearest.thing)];

@@ -187,9 +187,9 @@ TEST_F(RouteTest, RefusesWhatIsNoNumberAndWrongMemory) {
 TEST_F(RouteTest, PlanningDoesNotAllocate) {
   see([](double x, double y) { return x > 1.9 && x < 2.1 && y > -3 && y < 1; });
   Route route;
-  const int before = allocations;
+  const int before = test::allocations;
   EXPECT_EQ(planner_.plan(map_, {}, 5, 0, 0, route), Status::ok);
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::allocations, before);
 }
 
 }  // namespace
