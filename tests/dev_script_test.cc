@@ -95,8 +95,8 @@ class DevScript : public testing::Test {
 TEST_F(DevScript, HelpNamesEveryCommand) {
   const Result help = dev("help");
   EXPECT_EQ(help.status, 0);
-  for (const char* command : {"demo", "test", "test-arm", "build", "paper", "accuracy", "compare", "bench", "fuzz",
-                              "data", "format", "tidy", "deps"}) {
+  for (const char* command : {"demo", "pair", "test", "test-arm", "build", "paper", "accuracy", "compare", "bench",
+                              "fuzz", "data", "format", "tidy", "deps"}) {
     EXPECT_TRUE(contains(help.output, std::string("\n  ") + command)) << command;
   }
   EXPECT_EQ(dev("").output, help.output);

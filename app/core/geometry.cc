@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/nav/route.h"
+
 namespace lakshya {
 namespace {
 

@@ -5,13 +5,14 @@
 #include "app/core/calibration.h"
 #include "app/core/vehicle_config.h"
 #include "app/nav/rolling_map.h"
-#include "app/nav/route.h"
 #include "kernels/base/nav_grid.h"
 #include "kernels/ground/ground.h"
 #include "kernels/prune/prune.h"
 #include "kernels/score/score.h"
 
 namespace lakshya {
+
+struct RouteParams;
 
 // Largest stored disparity that the matcher searches, px.
 double max_disparity_px(const MatcherConfig& matcher);

@@ -8,6 +8,7 @@
 #include "app/core/geometry.h"
 #include "app/core/input_error.h"
 #include "app/core/over_bands.h"
+#include "app/nav/route.h"
 #include "kernels/grid_bin/grid_bin.h"
 
 namespace lakshya {
@@ -111,13 +112,13 @@ Pipeline::Buffers::Buffers(const VehicleConfig& config, const RectifiedGeometry&
       polar_table(arena.take<PolarEntry>(polar_table_entries(grid_geometry(config.grid)))),
       rolling(take_rolling_map(config, arena)),
       rolling_type(rolls(config) ? arena.take_image<std::uint8_t>(config.grid.cols, config.grid.rows)
-                                 : ImageView<std::uint8_t>{}),
-      route(take_route(config, arena)) {}
+                                 : ImageView<std::uint8_t>{}) {}
 
 std::size_t Pipeline::memory_bytes(const VehicleConfig& config, const StereoCalibration& calibration, int width,
                                    int height, const KernelTable& kernels) {
   Arena measure;
   (void)Buffers(config, rectified_geometry(calibration, width, height), needs_remap(calibration), kernels, measure);
+  (void)take_route(config, measure);
   if (measure.used() > kMaxArenaBytes) {
     throw InputError(calibration.source,
                      "images of " + std::to_string(width) + "x" + std::to_string(height) + " need " +
@@ -138,7 +139,6 @@ Pipeline::Pipeline(const VehicleConfig& config, const StereoCalibration& calibra
       blind_zone_m_(blind_zone_m(config, camera_)),
       remap_(needs_remap(calibration)),
       rolls_(rolls(config)),
-      routes_(routes(config)),
       arena_(std::move(memory)) {
   const int first = stored_range(config.matcher.min_disparity, camera_.doffs()).first_raw;
   if (first >= width || first + config.matcher.disparities <= -width) {
@@ -164,13 +164,19 @@ Pipeline::Pipeline(const VehicleConfig& config, const StereoCalibration& calibra
   if (rolls_) {
     require(rolling_map_.configure(rolling_map_params(config, camera_), b.maps[0].geometry, b.rolling), "map");
   }
-  if (routes_)
-    require(route_planner_.configure(route_params(config, camera_), b.maps[0].geometry.cell_mm, b.route), "route");
+  if (routes(config)) {
+    route_planner_ = std::make_unique<RoutePlanner>();
+    require(route_planner_->configure(route_params(config, camera_), b.maps[0].geometry.cell_mm,
+                                      take_route(config, arena_)),
+            "route");
+  }
   PlannerParams planner = config.planner;
   planner.blind_zone_m = blind_zone_m_;
   require(planner_.configure(planner, config.vehicle, b.maps[0].geometry, b.polar_table, kernels.polar_histogram),
           "planner");
 }
+
+Pipeline::~Pipeline() = default;
 
 void Pipeline::make_maps(const StereoCalibration& calibration) {
   const Rectification r = calibration.rectification ? *calibration.rectification
@@ -191,7 +197,7 @@ void Pipeline::begin_anew() {
   ground_offset16_.reset();
   plan_state_ = {};
   if (rolls_) rolling_map_.reset();
-  route_planner_.reset();
+  if (route_planner_) route_planner_->reset();
   times_ = {};
 }
 
@@ -281,7 +287,7 @@ Status Pipeline::remember(const PlanInput& input, FrameResult& result) {
 }
 
 Status Pipeline::plan(const PlanInput& input, FrameResult& result) {
-  if (!routes_ || !input.pose) return planner_.plan(result.map, input, plan_state_, result.plan);
+  if (!route_planner_ || !input.pose) return planner_.plan(result.map, input, plan_state_, result.plan);
   PlanInput with_route = input;
   const Pose& pose = input.pose->pose;
   constexpr double kCarriedTurn = 2;  // frames for which the vehicle goes on turning as it does

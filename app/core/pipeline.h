@@ -22,6 +22,8 @@
 
 namespace lakshya {
 
+class RoutePlanner;
+
 // What one frame gave. Views stay valid until the next process() of the same pipeline.
 struct FrameResult {
   ImageView<const std::uint8_t> left;  // rectified
@@ -58,6 +60,7 @@ class Pipeline {
   // What the pipeline will take for images of that size; depends on the number of OpenMP's threads.
   static std::size_t memory_bytes(const VehicleConfig& config, const StereoCalibration& calibration, int width,
                                   int height, const KernelTable& kernels);
+  ~Pipeline();
 
   // left, right: raw images of the size given at the start. Without input.pose, or with map.rolling: no, the frame is planned with
   // alone.
@@ -101,7 +104,6 @@ class Pipeline {
     std::span<PolarEntry> polar_table;
     RollingMapMemory rolling;  // empty, as its view, where there is none
     ImageView<std::uint8_t> rolling_type;
-    RouteMemory route;  // empty where nothing searches for one
   };
 
   void make_maps(const StereoCalibration& calibration);
@@ -121,7 +123,6 @@ class Pipeline {
   double blind_zone_m_;
   bool remap_;
   bool rolls_;
-  bool routes_;
   Arena arena_;
   std::unique_ptr<Buffers> buffers_;
   PruneModel mount_model_;
@@ -130,7 +131,7 @@ class Pipeline {
   std::int32_t ground_rate16_ = 0;
   std::optional<std::int32_t> ground_offset16_;  // of the last frame
   RollingMap rolling_map_;
-  RoutePlanner route_planner_;
+  std::unique_ptr<RoutePlanner> route_planner_;  // null where nothing searches for a route
   Planner planner_;
   PlanState plan_state_;
   StageTimes times_;

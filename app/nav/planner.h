@@ -26,7 +26,6 @@
 #include "app/nav/clear_distance.h"
 #include "app/nav/params.h"
 #include "app/nav/rolling_map.h"
-#include "app/nav/route.h"
 #include "app/nav/speed_governor.h"
 #include "app/nav/steering.h"
 #include "app/nav/vfh.h"
@@ -61,7 +60,7 @@ struct PlanInput {
   // only.
   std::optional<MapPose> pose = std::nullopt;
   // The planner "route": what the search on the rolling map has found; without it, it plans as "vfh+" does.
-  std::optional<Route> route = std::nullopt;
+  std::optional<RouteAim> route = std::nullopt;
 };
 
 // A vehicle that is hemmed in turns to one side until a direction opens, and to the same side if that closes again soon: which

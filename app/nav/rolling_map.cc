@@ -1,7 +1,6 @@
 #include "app/nav/rolling_map.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "app/nav/rolling_map_walk.h"
@@ -68,7 +67,11 @@ bool RollingMap::holds(std::int64_t x, std::int64_t y) const {
 }
 
 std::size_t RollingMap::index(std::int64_t x, std::int64_t y) const {
-  return static_cast<std::size_t>(wrapped(y, side_) * side_ + wrapped(x, side_));
+  std::int64_t u = x - x_begin_ + x_wrap_;
+  std::int64_t v = y - y_begin_ + y_wrap_;
+  if (u >= side_) u -= side_;
+  if (v >= side_) v -= side_;
+  return static_cast<std::size_t>(v * side_ + u);
 }
 
 void RollingMap::forget_old() {
@@ -86,6 +89,8 @@ void RollingMap::roll(std::int64_t x, std::int64_t y) {
   const std::int64_t up = std::clamp<std::int64_t>(y - y_begin_, -side_, side_);
   x_begin_ = x;
   y_begin_ = y;
+  x_wrap_ = wrapped(x, side_);
+  y_wrap_ = wrapped(y, side_);
   const auto entering = [this](std::int64_t begin, std::int64_t moved) {
     return moved > 0 ? Run{.begin = begin + side_ - moved, .end = begin + side_}
                      : Run{.begin = begin, .end = begin - moved};
@@ -202,11 +207,10 @@ Status RollingMap::add(const NavGrid& frame, const MapPose& at) {
   now_ = std::max(now_, static_cast<std::uint32_t>(std::max<std::int64_t>(0, at.time_ns - first_ns_) / kTickNs));
   near_m_ = params_.near_m + speed * params_.latency_s + speed * speed / (2 * params_.deceleration_mps2);
   roll(x, y);
-  stand_here(sight);
-  forget_old();
   clear_seen_free(frame, sight);
   add_obstacles(frame, sight);
   stand_here(sight);
+  forget_old();
   return Status::ok;
 }
 

@@ -102,7 +102,7 @@ class RollingMap {
   struct Run;
 
   bool holds(std::int64_t x, std::int64_t y) const;
-  std::size_t index(std::int64_t x, std::int64_t y) const;
+  std::size_t index(std::int64_t x, std::int64_t y) const;  // of a cell that the square holds
   void forget_old();
   void roll(std::int64_t x, std::int64_t y);
   void clear_seen_free(const NavGrid& frame, const Sight& sight);
@@ -130,6 +130,8 @@ class RollingMap {
   MapPose at_;
   std::int64_t x_begin_ = 0;  // world cells of the square's corner
   std::int64_t y_begin_ = 0;
+  std::int64_t x_wrap_ = 0;  // where that corner lies in the memory
+  std::int64_t y_wrap_ = 0;
   std::uint32_t now_ = 0;
   std::uint32_t swept_ = 0;  // when what is old was last forgotten
   double near_m_ = 0;        // within which one frame is enough, now

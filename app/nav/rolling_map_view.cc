@@ -9,8 +9,8 @@ Status RollingMap::view(ImageView<const std::uint8_t> frame, ImageView<std::uint
     return Status::size_mismatch;
   const Sight sight(geometry_, at_.pose, cell_m_);
   const auto side = static_cast<std::uint64_t>(side_);
-  const auto x_wrap = static_cast<std::uint64_t>(wrapped(x_begin_, side_));
-  const auto y_wrap = static_cast<std::uint64_t>(wrapped(y_begin_, side_));
+  const auto x_wrap = static_cast<std::uint64_t>(x_wrap_);
+  const auto y_wrap = static_cast<std::uint64_t>(y_wrap_);
   const std::int64_t x_step = fixed(sight.sin);
   const std::int64_t y_step = fixed(-sight.cos);
   for (int r = 0; r < geometry_.rows; ++r) {
@@ -62,6 +62,48 @@ Status RollingMap::view(ImageView<const std::uint8_t> frame, ImageView<std::uint
     }
   });
   return Status::ok;
+}
+
+Status RollingMap::window(std::int64_t x, std::int64_t y, ImageView<std::uint8_t> type) const {
+  if (!started_) return Status::bad_argument;
+  for (int v = 0; v < type.height; ++v) {
+    for (int u = 0; u < type.width; ++u) {
+      std::uint8_t& out = type.at(u, v);
+      out = kCellUnknown;
+      if (!holds(x + u, y + v)) continue;
+      const int evidence = memory_.evidence[index(x + u, y + v)];
+      if (evidence >= kFree + kBelieved) out = kCellObstacle;
+      if (evidence == kFree) out = kCellUnoccupied;
+    }
+  }
+  thicken(type);
+  return Status::ok;
+}
+
+// What was never seen behind a face counts as an obstacle there, too; see view().
+void RollingMap::thicken(ImageView<std::uint8_t> type) {
+  constexpr std::uint8_t kBehind = 255;  // until all are found
+  constexpr std::array<std::array<int, 2>, 4> kSides{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+  for (int v = 0; v < type.height; ++v) {
+    for (int u = 0; u < type.width; ++u) {
+      if (type.at(u, v) != kCellObstacle) continue;
+      for (const auto& [du, dv] : kSides) {
+        for (int n = 1; n <= static_cast<int>(kThickness); ++n) {
+          const int x = u + n * du;
+          const int y = v + n * dv;
+          if (x < 0 || x >= type.width || y < 0 || y >= type.height) break;
+          std::uint8_t& there = type.at(x, y);
+          if (there != kCellUnknown && there != kBehind) break;
+          there = kBehind;
+        }
+      }
+    }
+  }
+  for (int v = 0; v < type.height; ++v) {
+    for (int u = 0; u < type.width; ++u) {
+      if (type.at(u, v) == kBehind) type.at(u, v) = kCellObstacle;
+    }
+  }
 }
 
 }  // namespace lakshya

@@ -19,10 +19,10 @@ constexpr int kUnknown = 12;      // ... an unknown one
 constexpr int kUnknownNear = 80;  // ... one that the camera should have seen
 constexpr int kEscape = 150;      // ... one that is too near to an obstacle, on the way out from there
 constexpr int kEscapeCells = 6;
-constexpr int kCorner = 60;  // share of the way's least squared distance that a straight line keeps, percent
+constexpr int kCorner = 60;     // share of the way's least squared distance that a straight line keeps, percent
 constexpr int kStopShare = 82;  // of the squared distance that a way keeps: nearer the vehicle stops, percent
-constexpr double kKept = 0.7;  // share of its cost that a cell of the last way has
-constexpr int kStraight = 10;  // length of a step, tenths of a cell
+constexpr double kKept = 0.7;   // share of its cost that a cell of the last way has
+constexpr int kStraight = 10;   // length of a step, tenths of a cell
 constexpr int kDiagonal = 14;
 constexpr double kBorderWeight = 1.0 * kStraight * kOpen;  // of what is left to go beyond the window, per cell
 

@@ -156,6 +156,7 @@ VehicleConfig soak_config(VehicleConfig config) {
   config.folder.repeat = "yes";
   config.record.path.clear();
   config.mission.way_points.clear();
+  config.map.rolling = "no";  // the pictures do not go where the wheels do
   return config;
 }
 

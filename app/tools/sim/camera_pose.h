@@ -5,14 +5,10 @@
 
 #include "app/core/calibration.h"
 #include "app/core/vehicle_config.h"
+#include "app/tools/sim/ray_table.h"
 #include "app/tools/sim/vehicle.h"
 
 namespace lakshya::sim {
-
-struct CameraPose {
-  Eigen::Matrix3d world_from_camera = Eigen::Matrix3d::Identity();  // camera: x right, y down, z forward
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();               // metres
-};
 
 // Body frame (x forward, y left, z up) to world.
 Eigen::Matrix3d world_from_body(const VehicleState& vehicle);

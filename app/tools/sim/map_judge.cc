@@ -19,6 +19,7 @@ double rounded(double value) {
 void MapJudge::on_start(Simulation& simulation, const Machinery& /*machinery*/) {
   simulation_ = &simulation;
   const RectifiedGeometry& camera = simulation.camera();
+  rays_ = std::make_unique<RayTable>(rectified_rays(camera));
   depth_ = Image<float>(camera.width, camera.height);
   label_ = Image<std::int16_t>(camera.width, camera.height);
   pixels_.assign(world_->things.size(), 0);
@@ -113,13 +114,8 @@ double MapJudge::distance(const Thing& thing, const Cell& cell, double time_s) c
 // How much of each thing the camera sees between floor and clearance.
 void MapJudge::look(const Shot& shot) {
   const RectifiedGeometry& camera = simulation_->camera();
-  const View view{.model = {.fx = camera.focal_px, .fy = camera.focal_px, .cx = camera.cx_left, .cy = camera.cy},
-                  .width = camera.width,
-                  .height = camera.height,
-                  .world_from_camera = shot.rectified.world_from_camera,
-                  .position = shot.rectified.position};
   simulation_->renderer().set_time(shot.time_s);
-  simulation_->renderer().depth(view, false, depth_.view(), label_.view());
+  simulation_->renderer().depth(*rays_, shot.rectified, false, depth_.view(), label_.view());
   std::ranges::fill(pixels_, 0);
   std::ranges::fill(nearest_, std::numeric_limits<double>::infinity());
   const Eigen::RowVector3d up = shot.rectified.world_from_camera.row(2);

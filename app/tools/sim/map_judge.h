@@ -62,6 +62,7 @@ class MapJudge final : public Onlooker {
   const JudgeRules rules_;
   TrueGeometry truth_;
   Simulation* simulation_ = nullptr;
+  std::unique_ptr<RayTable> rays_;
   Image<float> depth_;
   Image<std::int16_t> label_;
   std::vector<Cell> cells_;      // obstacle cells of this frame

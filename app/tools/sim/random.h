@@ -1,7 +1,9 @@
 // Random numbers that are the same on every machine and with every standard library: splitmix64 (Steele, Lea, Flood 2014).
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 
 namespace lakshya::sim {
 
@@ -27,6 +29,12 @@ class Random {
   }
 
   bool chance(double share) { return uniform(0, 1) < share; }
+
+  // Standard normal (Box and Muller 1958).
+  double normal() {
+    const double radius = std::sqrt(-2 * std::log(uniform(1e-300, 1)));
+    return radius * std::cos(uniform(0, 2 * std::numbers::pi));
+  }
 
   std::uint32_t seed() { return static_cast<std::uint32_t>(next() >> 32); }
 

@@ -9,9 +9,9 @@
 #include "app/core/geometry.h"
 #include "app/loop/memory_watch.h"
 #include "app/loop/stepped_run.h"
+#include "app/tools/sim/free_space.h"
 #include "app/tools/sim/truth.h"
 #include "app/tools/sim/walk.h"
-#include "app/tools/sim/free_space.h"
 #include "hal/angle.h"
 #include "hal/clock/monotonic_clock.h"
 

@@ -11,7 +11,7 @@ namespace lakshya::sim {
 namespace {
 
 CameraConfig with_error(CameraConfig mount, double deviation_deg, std::uint64_t seed) {
-  Random random(mixed(seed) ^ 0xCA);
+  Random random(seed ^ 0xCA'0000'0000ULL);
   mount.pitch_deg += deviation_deg * random.normal();
   mount.roll_deg += deviation_deg * random.normal();
   return mount;
@@ -99,9 +99,8 @@ Status Simulation::produce(Nanoseconds time, std::uint64_t number, ImageView<std
 }
 
 std::vector<std::string> simulated_vehicle_settings(bool indoor) {
-  std::vector<std::string> sets{"camera.height_m=0.7", "camera.pitch_deg=5", "camera.forward_m=0.2",
-                                "camera.left_m=0.06", "planner.name=route",
-                                "planner.blind_zone_m=0.5"};
+  std::vector<std::string> sets{"camera.height_m=0.9", "camera.pitch_deg=12", "camera.forward_m=0.2",
+                                "camera.left_m=0.06",  "planner.name=route",  "planner.blind_zone_m=0.5"};
   if (!indoor) sets.insert(sets.end(), {"vehicle.max_speed_mps=1.5", "planner.active_radius_m=4"});
   return sets;
 }

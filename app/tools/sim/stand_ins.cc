@@ -21,25 +21,26 @@ void fill(ImageView<std::uint8_t> image, std::uint8_t value) {
 
 }  // namespace
 
+RayTable rectified_rays(const RectifiedGeometry& camera) {
+  return {{.fx = camera.focal_px, .fy = camera.focal_px, .cx = camera.cx_left, .cy = camera.cy},
+          camera.width,
+          camera.height};
+}
+
 TrueDepth::TrueDepth(Renderer& renderer, const RectifiedGeometry& camera, double max_disparity_px, const Shot& shot)
     : renderer_(&renderer),
       camera_(camera),
       max_disparity_px_(max_disparity_px),
       shot_(&shot),
+      rays_(rectified_rays(camera)),
       depth_(camera.width, camera.height),
       thing_(camera.width, camera.height),
       disparity_(camera.width, camera.height) {}
 
 Status TrueDepth::match(ImageView<const std::uint8_t> /*left*/, ImageView<const std::uint8_t> /*right*/,
                         ImageView<const std::int16_t>& disparity) {
-  const View view{
-      .model = {.fx = camera_.focal_px, .fy = camera_.focal_px, .cx = camera_.cx_left, .cy = camera_.cy},
-      .width = camera_.width,
-      .height = camera_.height,
-      .world_from_camera = shot_->rectified.world_from_camera,
-      .position = shot_->rectified.position};
   renderer_->set_time(shot_->time_s);
-  renderer_->depth(view, true, depth_.view(), thing_.view());
+  renderer_->depth(rays_, shot_->rectified, true, depth_.view(), thing_.view());
   const double scale = camera_.focal_px * camera_.baseline_m;
   for (int v = 0; v < camera_.height; ++v) {
     for (int u = 0; u < camera_.width; ++u) {

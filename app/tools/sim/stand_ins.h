@@ -15,6 +15,9 @@ struct Shot {
   double time_s = 0;
 };
 
+// The rays of a rectified left camera.
+RayTable rectified_rays(const RectifiedGeometry& camera);
+
 // The true disparity of every pixel, glass included: the upper bound of what a stereo camera could see.
 class TrueDepth final : public StandIn {
  public:
@@ -29,6 +32,7 @@ class TrueDepth final : public StandIn {
   const RectifiedGeometry camera_;
   const double max_disparity_px_;
   const Shot* shot_;
+  RayTable rays_;
   Image<float> depth_;
   Image<std::int16_t> thing_;
   Image<std::int16_t> disparity_;

@@ -27,8 +27,8 @@ double wandered(double value, double mean, double deviation, double time_s, doub
 Vehicle::Vehicle(const VehicleSettings& settings, const World& world, std::uint64_t seed, Nanoseconds time)
     : settings_(settings),
       world_(&world),
-      slips_(mixed(seed) ^ 0x51),
-      readings_(mixed(seed) ^ 0xC0),
+      slips_(seed ^ 0x5117'0000'0000ULL),
+      readings_(seed ^ 0xC0'0000'0000ULL),
       time_(time),
       slip_{settings.slip, settings.slip} {
   bias_ = settings.heading_bias_deg * kRadians * readings_.normal();
@@ -63,7 +63,7 @@ Status Vehicle::heading(Nanoseconds time, HeadingSample& sample) {
   if (time >= jump_until_) {
     jump_ = 0;
     if (readings_.chance(settings_.heading_jumps_per_s / kReadingsPerSecond)) {
-      const double size = readings_.between(5, 15) * kRadians;
+      const double size = readings_.uniform(5, 15) * kRadians;
       jump_ = readings_.chance(0.5) ? size : -size;
       jump_until_ = time + kJumpLength;
     }

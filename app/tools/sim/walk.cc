@@ -22,12 +22,11 @@ Place place_on_walk(const Walk& walk, double time_s) {
     // On the way back a corner belongs to the leg that comes next there, which is the one before it.
     if (rest < step_length || (back && rest <= step_length) || i + 1 == walk.points.size()) {
       const Eigen::Vector2d at = walk.points[i - 1] + step * (rest / step_length);
-      const Eigen::Vector2d facing = back ? Eigen::Vector2d(-step) : step;
+      const Eigen::Vector2d facing =
+          back ? Eigen::Vector2d(walk.points[i - 1] - walk.points[i]) : step;  // no -0: west is +pi
       return {at.x(), at.y(), std::atan2(facing.y(), facing.x())};
     }
-    const Eigen::Vector2d at = points[i - 1] + leg * std::min(left / size, 1.0);
-    const double sign = back ? -1 : 1;
-    return {at.x(), at.y(), std::atan2(sign * leg.y() + 0.0, sign * leg.x())};  // + 0: due west is pi, never -pi
+    rest -= step_length;
   }
   return {walk.points.back().x(), walk.points.back().y(), 0};
 }

@@ -167,7 +167,13 @@ TEST_F(ProfileRunTest, TheTraceNestsStagesInFrames) {
 TEST(ProfileTrace, NanosecondsAreKept) {
   FrameTimes f;
   const Nanoseconds start = 9'007'199'254'740'993;  // more than a double holds
-  f.begin = {start, start + 11, start + 2'000'011, start + 2'000'012, start + 2'000'013, start + 2'000'014, start + 2'000'015};
+  f.begin = {start,
+             start + 11,
+             start + 2'000'011,
+             start + 2'000'012,
+             start + 2'000'013,
+             start + 2'000'014,
+             start + 2'000'015};
   f.took = {10, 2'000'000, 1, 1, 1, 1, 1};
   f.match.at = {start + 12, start + 1'000'012, start + 1'000'013, start + 2'000'011};
   const Json events = Json::parse(trace_json(std::span(&f, 1)))["traceEvents"];

@@ -121,9 +121,9 @@ TEST(Truth, KerbsRampSidesAndDropOffs) {
   EXPECT_TRUE(truth.dropoff_at(5.5, 0.5));
   EXPECT_FALSE(truth.dropoff_at(5.02, 0.02));  // its corners are filled
   EXPECT_FALSE(truth.dropoff_at(2.5, 0));
-  // The ramp is 5 cm high at x = 0.5: from there on its side is a step; its foot and its joint with the platform are none.
-  EXPECT_NEAR(truth.nearest(0.5, 3.5, 0, 1, 0, true).distance_m, 0.5, 0.011);
-  EXPECT_NEAR(truth.nearest(0, 4.6, 0, 1, 0, true).distance_m, std::hypot(0.5, 0.6), 0.02);
+  // The ramp is 10 cm high at x = 1: from there on its side is a step; its foot and its joint with the platform are none.
+  EXPECT_NEAR(truth.nearest(0.5, 3.5, 0, 1, 0, true).distance_m, std::hypot(0.5, 0.5), 0.011);
+  EXPECT_NEAR(truth.nearest(0, 4.6, 0, 1, 0, true).distance_m, std::hypot(1.0, 0.6), 0.02);
   EXPECT_NEAR(truth.nearest(2, 5, 0, 1, 0, true).distance_m, 1, 1e-9);
 }
 
