@@ -26,7 +26,7 @@ namespace {
 constexpr int kSeeds = 8;
 constexpr double kMostSeconds = 10;
 #else
-constexpr int kSeeds = 100;
+constexpr int kSeeds = 40;
 constexpr double kMostSeconds = 0.5;
 #endif
 
