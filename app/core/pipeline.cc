@@ -8,6 +8,8 @@
 #include "app/core/geometry.h"
 #include "app/core/input_error.h"
 #include "app/core/over_bands.h"
+#include "app/nav/give_way.h"
+#include "app/nav/motion_watch.h"
 #include "app/nav/route.h"
 #include "kernels/grid_bin/grid_bin.h"
 
@@ -41,6 +43,12 @@ RollingMapMemory take_rolling_map(const VehicleConfig& config, Arena& arena) {
   return {arena.take<std::uint8_t>(cells), arena.take<std::int16_t>(cells), arena.take<std::uint32_t>(cells)};
 }
 
+MotionWatchParams motion_watch_params(const VehicleConfig& config, const RectifiedGeometry& camera) {
+  const UpperEdge edge = rolling_map_params(config, camera).camera;
+  return {edge.forward_m, edge.left_m, edge.yaw, std::atan(camera.width / (2 * camera.focal_px)),
+          blind_zone_m(config, camera)};
+}
+
 bool routes(const VehicleConfig& config) {
   return rolls(config) && config.planner.name == "route";
 }
@@ -51,6 +59,12 @@ RouteMemory take_route(const VehicleConfig& config, Arena& arena) {
   return {arena.take<std::uint8_t>(kCells), arena.take<std::uint8_t>(kCells), arena.take<std::uint8_t>(kCells),
           arena.take<std::int32_t>(kCells), arena.take<std::int32_t>(kCells), arena.take<std::int32_t>(kCells),
           arena.take<std::uint8_t>(kCells)};
+}
+
+MotionWatchMemory take_motion_watch(const VehicleConfig& config, Arena& arena) {
+  if (!rolls(config)) return {};
+  return {arena.take<std::uint32_t>(kWatchCells), arena.take<std::uint8_t>(kWatchCells),
+          arena.take<std::uint8_t>(kWatchCells)};
 }
 
 // A map for every thread that may count points, the first of them the frame's: adding the others to it costs less than
@@ -94,6 +108,12 @@ Status timed(const Clock& clock, Stage stage, FrameResult& result, Step&& step) 
 
 }  // namespace
 
+// What moves, and how long the vehicle has waited for it.
+struct Pipeline::Traffic {
+  MotionWatch watch;
+  Patience patience;
+};
+
 Pipeline::Buffers::Buffers(const VehicleConfig& config, const RectifiedGeometry& camera, bool remap,
                            const KernelTable& kernels, Arena& arena)
     : map_left(take_rectify_images<RectifyImages>(remap, camera, arena)),
@@ -119,6 +139,7 @@ std::size_t Pipeline::memory_bytes(const VehicleConfig& config, const StereoCali
   Arena measure;
   (void)Buffers(config, rectified_geometry(calibration, width, height), needs_remap(calibration), kernels, measure);
   (void)take_route(config, measure);
+  (void)take_motion_watch(config, measure);
   if (measure.used() > kMaxArenaBytes) {
     throw InputError(calibration.source,
                      "images of " + std::to_string(width) + "x" + std::to_string(height) + " need " +
@@ -170,6 +191,13 @@ Pipeline::Pipeline(const VehicleConfig& config, const StereoCalibration& calibra
                                       take_route(config, arena_)),
             "route");
   }
+  if (rolls_) {
+    traffic_ = std::make_unique<Traffic>();
+    require(traffic_->watch.configure(motion_watch_params(config, camera_), b.maps[0].geometry,
+                                      take_motion_watch(config, arena_)),
+            "motion");
+  }
+  vehicle_ = config.vehicle;
   PlannerParams planner = config.planner;
   planner.blind_zone_m = blind_zone_m_;
   require(planner_.configure(planner, config.vehicle, b.maps[0].geometry, b.polar_table, kernels.polar_histogram),
@@ -198,6 +226,10 @@ void Pipeline::begin_anew() {
   plan_state_ = {};
   if (rolls_) rolling_map_.reset();
   if (route_planner_) route_planner_->reset();
+  if (traffic_) {
+    traffic_->watch.reset();
+    traffic_->patience = {};
+  }
   times_ = {};
 }
 
@@ -279,9 +311,13 @@ Status Pipeline::project_and_bin(FrameResult& result) {
 
 Status Pipeline::remember(const PlanInput& input, FrameResult& result) {
   result.map = result.grid.type;
+  result.movers = {};
   if (!rolls_ || !input.pose) return Status::ok;
   const Status added = rolling_map_.add(result.grid, *input.pose);
   if (added != Status::ok) return added;
+  const Status watched = traffic_->watch.add(result.grid, *input.pose);
+  if (watched != Status::ok) return watched;
+  result.movers = traffic_->watch.movers();
   result.map = buffers_->rolling_type;
   return rolling_map_.view(result.grid.type, buffers_->rolling_type);
 }
@@ -323,7 +359,13 @@ Status Pipeline::process(ImageView<const std::uint8_t> left, ImageView<const std
   if (status != Status::ok) return status;
   status = timed(*clock_, Stage::remember, result, [&] { return remember(input, result); });
   if (status != Status::ok) return status;
-  status = timed(*clock_, Stage::plan, result, [&] { return plan(input, result); });
+  status = timed(*clock_, Stage::plan, result, [&] {
+    const Status planned = plan(input, result);
+    if (planned == Status::ok && traffic_ && input.pose)
+      limit_plan(vehicle_, result.movers, input.pose->pose, traffic_->watch.speed_mps(), traffic_->patience,
+                 result.plan);
+    return planned;
+  });
   if (status == Status::ok) times_.add(result.times);
   return status;
 }

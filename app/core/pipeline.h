@@ -16,6 +16,7 @@
 #include "app/core/rectification.h"
 #include "app/core/stage_times.h"
 #include "app/core/vehicle_config.h"
+#include "app/nav/mover.h"
 #include "app/nav/planner.h"
 #include "app/nav/rolling_map.h"
 #include "hal/clock.h"
@@ -34,6 +35,7 @@ struct FrameResult {
   PixelCounts pixels;
   NavGrid grid;                       // of this frame alone
   ImageView<const std::uint8_t> map;  // what was planned with: the rolling map's cells, or grid.type
+  std::span<const Mover> movers;      // none where no rolling map is
   Plan plan;
   FrameTimes times;
 };
@@ -132,6 +134,9 @@ class Pipeline {
   std::optional<std::int32_t> ground_offset16_;  // of the last frame
   RollingMap rolling_map_;
   std::unique_ptr<RoutePlanner> route_planner_;  // null where nothing searches for a route
+  struct Traffic;
+  std::unique_ptr<Traffic> traffic_;  // null where there is no rolling map
+  VehicleParams vehicle_;
   Planner planner_;
   PlanState plan_state_;
   StageTimes times_;

@@ -169,7 +169,9 @@ WheelVelocities Control::wanted(Action action) const {
   const VehicleParams& v = config_.vehicle;
   double speed = plan_->speed_mps;
   double rate = 0;
-  if (plan_->blocked) {
+  if (plan_->yields) {
+    speed = 0;
+  } else if (plan_->blocked) {
     // A turn on the spot sweeps no new ground, but only a vehicle that stands turns on the spot.
     const bool stands = wheels_.left_mps + wheels_.right_mps == 0;
     rate = stands && !plan_->hemmed_in ? config_.loop.recovery_turn_dps * kRadiansPerDegree : 0;

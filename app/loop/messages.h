@@ -70,6 +70,7 @@ struct PlanNote {
   bool blocked = true;
   Side recovery = Side::left;
   bool hemmed_in = false;  // blocked, and turning round has not helped
+  bool yields = false;     // stands, and does not turn either, because of somebody who moves
   double direction = 0;    // rad, from straight ahead of that pose
   double clear_m = 0;
   ClearEnd clear_end = ClearEnd::unknown;

@@ -50,6 +50,7 @@ void Perception::describe(PlanNote& plan) const {
   plan.blocked = p.blocked;
   plan.recovery = p.recovery;
   plan.hemmed_in = p.hemmed_in;
+  plan.yields = p.yields;
   plan.direction = p.direction;
   plan.clear_m = p.clear_distance_m;
   plan.clear_end = p.clear_end;

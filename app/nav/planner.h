@@ -98,6 +98,7 @@ struct Plan {
   bool blocked = true;  // no candidate: everything below is zero, and `recovery` says where to turn on the spot
   Side recovery = Side::left;
   bool waits = false;      // the direction is still the previous one, and the speed 0: see kPatience
+  bool yields = false;     // stands, and does not turn either, because of somebody who moves: give_way.h
   bool squeezes = false;   // nothing is open but without the safety distance: creeping
   bool hemmed_in = false;  // blocked, and a full turn has found nothing: better stand still
   double direction = 0;
