@@ -1,5 +1,6 @@
 #include "app/tools/sim_setup.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
@@ -79,14 +80,18 @@ sim::World choose_world(const std::string& world, std::uint64_t seed) {
 
 VehicleConfig choose_vehicle(const SimOptions& o, bool indoor) {
   std::string profile = o.config.profile;
-  std::vector<std::string> sets;
-  if (o.config.config.empty()) {
-    if (profile.empty()) profile = indoor ? "indoor" : "outdoor";
-    sets = sim::simulated_vehicle_settings(indoor);
-  }
-  sets.insert(sets.end(), o.config.sets.begin(), o.config.sets.end());
+  std::vector<std::string> sets = o.config.sets;
   if (!o.matcher.empty()) sets.push_back("matcher.name=" + o.matcher);
   if (!o.planner.empty()) sets.push_back("planner.name=" + o.planner);
+  if (o.config.config.empty()) {
+    if (profile.empty()) profile = indoor ? "indoor" : "outdoor";
+    // What the user sets takes the place of what the simulator would: a key that is set twice is refused.
+    const auto key = [](const std::string& set) { return set.substr(0, set.find('=')); };
+    const std::vector<std::string> asked = sets;
+    for (const std::string& usual : sim::simulated_vehicle_settings(indoor)) {
+      if (std::ranges::find(asked, key(usual), key) == asked.end()) sets.push_back(usual);
+    }
+  }
   return sim::with_simulated_devices(load_vehicle_config(o.config.config, profile, sets));
 }
 

@@ -98,9 +98,18 @@ Status Simulation::produce(Nanoseconds time, std::uint64_t number, ImageView<std
   return Status::ok;
 }
 
+// The matcher's limits are stricter than for pictures with ground truth, where a wrong match costs no more than a missing one: here it
+// stands in the way.
 std::vector<std::string> simulated_vehicle_settings(bool indoor) {
-  std::vector<std::string> sets{"camera.height_m=0.9", "camera.pitch_deg=12", "camera.forward_m=0.2",
-                                "camera.left_m=0.06",  "planner.name=route",  "planner.blind_zone_m=0.5"};
+  std::vector<std::string> sets{"camera.height_m=0.9",
+                                "camera.pitch_deg=12",
+                                "camera.forward_m=0.2",
+                                "camera.left_m=0.06",
+                                "planner.name=route",
+                                "planner.blind_zone_m=0.5",
+                                "matcher.uniqueness_percent=20",
+                                "matcher.support_min_percent=45",
+                                "matcher.support_radius_px=4"};
   if (!indoor) sets.insert(sets.end(), {"vehicle.max_speed_mps=1.5", "planner.active_radius_m=4"});
   return sets;
 }

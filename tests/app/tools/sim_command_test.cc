@@ -70,6 +70,16 @@ TEST(SimCommand, SameSeedSameDriveOnAnyNumberOfThreads) {
   EXPECT_EQ(runs[0], runs[2]);
 }
 
+// The simulated vehicle has a planner and a mount of its own: what the user asks for takes their place.
+TEST(SimCommand, OptionsReplaceWhatTheSimulatedVehicleHas) {
+  const std::string command = "sim --world empty-room --seed 1 --sensor truth --json ";
+  const Outcome usual = run_lakshya(command);
+  const Outcome other = run_lakshya(command + "--planner vfh+ --set camera.pitch_deg=10");
+  ASSERT_EQ(usual.exit_code, 0) << usual.err;
+  ASSERT_EQ(other.exit_code, 0) << other.err;
+  EXPECT_NE(without_times(lines_of(usual.out).front()), without_times(lines_of(other.out).front()));
+}
+
 TEST(SimCommand, ACampaignThatWasInterruptedGoesOn) {
   const TempFolder folder;
   const std::string results = folder.path("results.jsonl");
