@@ -1,4 +1,6 @@
 
+#include <CLI/CLI.hpp>
+
 #include "app/lakshyad/program.h"
 #include "app/lakshyad/run_command.h"
 #include "app/lakshyad/self_test_command.h"

@@ -1,5 +1,6 @@
 #include "app/lakshyad/options.h"
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "app/core/input_error.h"

@@ -1,12 +1,16 @@
 // Command-line options that several subcommands share.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "app/core/kernel_table.h"
 #include "app/core/vehicle_config.h"
+
+namespace CLI {
+class App;
+class Validator;
+}  // namespace CLI
 
 namespace lakshya {
 

@@ -1,8 +1,11 @@
 // What both programs' main() do: log to stderr, one subcommand, errors to exit codes.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
+
+namespace CLI {
+class App;
+}
 
 namespace lakshya {
 

@@ -1,7 +1,9 @@
 // `run`: the firmware itself, on the vehicle's devices. `replay`: the same loop on recorded pairs, without a vehicle.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace lakshya {
 

@@ -1,5 +1,6 @@
 #include "app/lakshyad/self_test_command.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <memory>

@@ -1,7 +1,9 @@
 // `self-test`: does this machine compute what it should?
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace lakshya {
 

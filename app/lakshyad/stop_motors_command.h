@@ -1,7 +1,9 @@
 // `stop-motors`: zero to the drives and nothing else, for after a crash.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace lakshya {
 

@@ -1,5 +1,6 @@
 #include "app/tools/accuracy_command.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <memory>

@@ -1,5 +1,6 @@
 #include "app/tools/bench_command.h"
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <iostream>
 #include <memory>

@@ -1,11 +1,14 @@
 // `lakshya compass --calibrate`: what the vehicle's iron does to its magnetometer, from a turn on the spot.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <span>
 #include <string>
 
 #include "hal/compass/magnetometer_fit.h"
+
+namespace CLI {
+class App;
+}
 
 namespace lakshya {
 

@@ -1,5 +1,6 @@
 #include "app/tools/config_command.h"
 
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <string>

@@ -1,7 +1,9 @@
 // `lakshya devices`: what is there, and does it work?
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace lakshya {
 

@@ -1,3 +1,5 @@
+#include <CLI/CLI.hpp>
+
 #include "app/lakshyad/program.h"
 #include "app/lakshyad/run_command.h"
 #include "app/tools/accuracy_command.h"

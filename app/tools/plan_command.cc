@@ -1,5 +1,6 @@
 #include "app/tools/plan_command.h"
 
+#include <CLI/CLI.hpp>
 #include <iomanip>
 #include <iostream>
 #include <memory>

@@ -1,5 +1,6 @@
 #include "app/tools/sim_command.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

@@ -1,7 +1,9 @@
 // lakshya sim: the firmware's own loop drives a simulated vehicle.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace lakshya {
 

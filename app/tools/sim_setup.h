@@ -1,13 +1,17 @@
 // What the commands about simulated worlds share: which world, which vehicle, which sensor.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
 
 #include "app/lakshyad/options.h"
 #include "app/tools/sim/run_world.h"
 #include "app/tools/sim/world.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 namespace lakshya {
 

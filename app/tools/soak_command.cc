@@ -1,5 +1,6 @@
 #include "app/tools/soak_command.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <memory>

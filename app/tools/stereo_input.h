@@ -1,7 +1,6 @@
 // Where a command's stereo pair comes from: two images, two folders of images, or a recorded sequence.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,6 +9,10 @@
 #include "app/core/calibration.h"
 #include "app/core/frame_folder.h"
 #include "app/core/image.h"
+
+namespace CLI {
+class App;
+}
 
 namespace lakshya {
 
