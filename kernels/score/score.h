@@ -8,6 +8,12 @@
 //   below_count >= n_below and > floor_count           obstacle (drop-off)
 //   count >= n_min, or floor_count >= n_floor          unoccupied
 //   otherwise                                          unknown: unknown is never free
+// What stands alone is none [+]; a thing reaches into the cells beside its own, or smears into those before and behind it, while a few
+// wrong matches lie alone. An obstacle with count < kSurePoints n_min is one only if
+//   the counts of the 3 x 3 cells about it add up to kSurePoints n_min, and
+//   its mean height is at least 2 h_min, or count >= floor_count (noise lifts a little of the floor)
+// and a drop-off only if the below_counts about it add up to kSurePoints n_below and to more than the floor_counts. Otherwise the cell is
+// unoccupied with floor_count >= n_floor, and unknown without.
 #pragma once
 
 #include <cstdint>
@@ -51,11 +57,15 @@ Status build_score_table(const GridGeometry& grid, const ScoreGeometry& geometry
 Status score_ref(std::span<const CellThresholds> thresholds, std::int32_t min_height_mm, const NavGrid& grid);
 Status score_simd(std::span<const CellThresholds> thresholds, std::int32_t min_height_mm, const NavGrid& grid);
 
+inline constexpr std::uint32_t kSurePoints = 3;
+
 // What both refuse.
 Status check_score_arguments(std::span<const CellThresholds> thresholds, std::int32_t min_height_mm,
                              const NavGrid& grid);
 // Columns from `begin` of one row by the reference: what a vector does not reach. thresholds: of the row.
 void score_cells_ref(std::span<const CellThresholds> thresholds, std::int32_t min_height_mm, const NavGrid& grid,
                      int row, int begin);
+// Last for both: few cells are obstacles, and fewer of them weak.
+void check_weak_cells(std::span<const CellThresholds> thresholds, std::int32_t min_height_mm, const NavGrid& grid);
 
 }  // namespace lakshya

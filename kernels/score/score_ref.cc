@@ -1,8 +1,55 @@
+#include <algorithm>
+#include <cstring>
+
 #include "kernels/base/units.h"
 #include "kernels/grid_bin/grid_bin.h"
 #include "kernels/score/score.h"
 
 namespace lakshya {
+namespace {
+
+struct About {
+  std::uint64_t points = 0;
+  std::uint64_t floor = 0;
+  std::uint64_t below = 0;
+};
+
+About sum_about(const NavGrid& grid, int col, int row) {
+  const int cols = grid.geometry.cols;
+  const int rows = grid.geometry.rows;
+  About sum;
+  for (int r = std::max(row - 1, 0); r <= std::min(row + 1, rows - 1); ++r) {
+    for (int c = std::max(col - 1, 0); c <= std::min(col + 1, cols - 1); ++c) {
+      sum.points += grid.count.at(c, r);
+      sum.floor += grid.floor_count.at(c, r);
+      sum.below += grid.below_count.at(c, r);
+    }
+  }
+  return sum;
+}
+
+bool drops(const CellThresholds& least, const NavGrid& grid, int col, int row) {
+  const std::uint32_t below = grid.below_count.at(col, row);
+  return below >= least.below && below > grid.floor_count.at(col, row);
+}
+
+// An obstacle by its points, or a drop-off, that its surroundings do not bear out.
+bool stands_alone(const CellThresholds& least, std::int32_t min_height_mm, const NavGrid& grid, int col, int row) {
+  const std::uint32_t count = grid.count.at(col, row);
+  const std::uint64_t sure = std::uint64_t{kSurePoints} * least.points;
+  const std::int64_t heights = grid.height_sum.at(col, row);
+  const bool high = heights > std::int64_t{min_height_mm} * count;
+  if (count >= sure && high) return false;
+  const About about = sum_about(grid, col, row);
+  if (count >= least.points && high && about.points >= sure) {
+    const bool low = heights < 2 * std::int64_t{min_height_mm} * count;
+    if (!low || count >= grid.floor_count.at(col, row)) return false;
+  }
+  return !drops(least, grid, col, row) || about.below < std::uint64_t{kSurePoints} * least.below ||
+         about.below <= about.floor;
+}
+
+}  // namespace
 
 Status check_score_arguments(std::span<const CellThresholds> thresholds, std::int32_t min_height_mm,
                              const NavGrid& grid) {
@@ -20,15 +67,29 @@ void score_cells_ref(std::span<const CellThresholds> thresholds, std::int32_t mi
     const std::uint32_t count = grid.count.at(col, row);
     const bool seen = count >= least.points;
     const bool high = grid.height_sum.at(col, row) > std::int64_t{min_height_mm} * count;
-    const std::uint32_t below_count = grid.below_count.at(col, row);
-    const std::uint32_t floor_count = grid.floor_count.at(col, row);
-    const bool below = below_count >= least.below && below_count > floor_count;
-    const bool floor = floor_count >= least.floor;
+    const bool floor = grid.floor_count.at(col, row) >= least.floor;
     std::uint8_t& type = grid.type.at(col, row);
-    if ((seen && high) || below) {
+    if ((seen && high) || drops(least, grid, col, row)) {
       type = kCellObstacle;
     } else {
       type = seen || floor ? kCellUnoccupied : kCellUnknown;
+    }
+  }
+}
+
+void check_weak_cells(std::span<const CellThresholds> thresholds, std::int32_t min_height_mm, const NavGrid& grid) {
+  const auto cols = static_cast<std::size_t>(grid.geometry.cols);
+  for (int row = 0; row < grid.geometry.rows; ++row) {
+    std::uint8_t* const types = grid.type.row(row);
+    std::uint8_t* const end = types + cols;
+    for (std::uint8_t* type = types; type < end; ++type) {
+      type = static_cast<std::uint8_t*>(std::memchr(type, kCellObstacle, static_cast<std::size_t>(end - type)));
+      if (type == nullptr) break;
+      const auto col = static_cast<std::size_t>(type - types);
+      const CellThresholds& least = thresholds[static_cast<std::size_t>(row) * cols + col];
+      const int u = static_cast<int>(col);
+      if (!stands_alone(least, min_height_mm, grid, u, row)) continue;
+      *type = grid.floor_count.at(u, row) >= least.floor ? kCellUnoccupied : kCellUnknown;
     }
   }
 }
@@ -39,6 +100,7 @@ Status score_ref(std::span<const CellThresholds> thresholds, std::int32_t min_he
   const auto cols = static_cast<std::size_t>(grid.geometry.cols);
   for (int row = 0; row < grid.geometry.rows; ++row)
     score_cells_ref(thresholds.subspan(static_cast<std::size_t>(row) * cols, cols), min_height_mm, grid, row, 0);
+  check_weak_cells(thresholds, min_height_mm, grid);
   return Status::ok;
 }
 

@@ -89,8 +89,10 @@ HWY_EXPORT(score_map);
 
 Status score_simd(std::span<const CellThresholds> thresholds, std::int32_t min_height_mm, const NavGrid& grid) {
   const Status checked = check_score_arguments(thresholds, min_height_mm, grid);
-  if (checked == Status::ok) HWY_DYNAMIC_DISPATCH(score_map)(thresholds.data(), min_height_mm, grid);
-  return checked;
+  if (checked != Status::ok) return checked;
+  HWY_DYNAMIC_DISPATCH(score_map)(thresholds.data(), min_height_mm, grid);
+  check_weak_cells(thresholds, min_height_mm, grid);
+  return Status::ok;
 }
 
 }  // namespace lakshya

@@ -38,8 +38,29 @@ int type_of(const Counts& c) {
 }
 
 TEST(Score, EnoughHighPointsAreAnObstacle) {
-  EXPECT_EQ(type_of({10, 701, 0, 0}), kCellObstacle);
-  EXPECT_EQ(type_of({10, 701, 50, 0}), kCellObstacle);  // floor around its foot does not free it
+  EXPECT_EQ(type_of({30, 2101, 0, 0}), kCellObstacle);
+  EXPECT_EQ(type_of({30, 2101, 50, 0}), kCellObstacle);  // floor around its foot does not free it
+}
+
+// The middle cell of 3 x 3 has 10 points, the least; `about` those of one of its corners, and there is floor to decide by.
+int weak_type(std::uint32_t about, int corner_col, int corner_row, std::uint32_t floor) {
+  TestGrid g(4, 4);
+  const NavGrid v = g.view();
+  v.count.at(1, 1) = 10;
+  v.height_sum.at(1, 1) = 701;
+  v.floor_count.at(1, 1) = floor;
+  v.count.at(corner_col, corner_row) = about;
+  const std::vector<CellThresholds> thresholds(16, CellThresholds{10, 5, 4});
+  EXPECT_EQ(score_ref(thresholds, 70, v), Status::ok);
+  return v.type.at(1, 1);
+}
+
+TEST(Score, AFewPointsNeedOthersBesideThem) {
+  EXPECT_EQ(weak_type(20, 0, 0, 0), kCellObstacle);
+  EXPECT_EQ(weak_type(20, 2, 2, 9), kCellObstacle);
+  EXPECT_EQ(weak_type(19, 2, 2, 0), kCellUnknown);
+  EXPECT_EQ(weak_type(19, 2, 2, 5), kCellUnoccupied);
+  EXPECT_EQ(weak_type(500, 3, 1, 0), kCellUnknown);  // two cells away
 }
 
 TEST(Score, TooFewPointsAreNotAnObstacle) {
@@ -58,12 +79,40 @@ TEST(Score, FloorEvidenceMakesUnoccupied) {
   EXPECT_EQ(type_of({0, 0, 0, 0}), kCellUnknown);
 }
 
+TEST(Score, LowPointsOnMuchFloorAreNotAnObstacle) {
+  EXPECT_EQ(weak_type(20, 0, 0, 11), kCellUnoccupied);  // mean 70.1 mm, fewer points than floor
+  EXPECT_EQ(weak_type(20, 0, 0, 10), kCellObstacle);
+  EXPECT_EQ(type_of({30, 2101, 31, 0}), kCellObstacle);  // many enough to be sure
+}
+
 TEST(Score, ADropOffIsAnObstacleWhereItOutweighsTheFloor) {
-  EXPECT_EQ(type_of({0, 0, 3, 4}), kCellObstacle);
-  EXPECT_EQ(type_of({10, 100, 3, 4}), kCellObstacle);
+  EXPECT_EQ(type_of({0, 0, 11, 12}), kCellObstacle);
+  EXPECT_EQ(type_of({10, 100, 3, 12}), kCellObstacle);
+  EXPECT_EQ(type_of({10, 701, 3, 12}), kCellObstacle);  // however few points stand there
+  EXPECT_EQ(type_of({90, 900, 3, 12}), kCellObstacle);  // or many, but low
   EXPECT_EQ(type_of({0, 0, 2, 3}), kCellUnknown);
   EXPECT_EQ(type_of({0, 0, 50, 50}), kCellUnoccupied);
   EXPECT_EQ(type_of({0, 0, 50, 51}), kCellObstacle);
+}
+
+// Two cells side by side, as above.
+int drop_type(const Counts& c, const Counts& beside) {
+  TestGrid g(1, 2);
+  const NavGrid v = g.view();
+  for (int i = 0; i < 2; ++i) {
+    v.floor_count.at(i, 0) = i == 0 ? c.floor : beside.floor;
+    v.below_count.at(i, 0) = i == 0 ? c.below : beside.below;
+  }
+  const std::vector<CellThresholds> thresholds(2, CellThresholds{10, 5, 4});
+  EXPECT_EQ(score_ref(thresholds, 70, v), Status::ok);
+  return v.type.at(0, 0);
+}
+
+TEST(Score, ASmallDropOffNeedsOthersBesideIt) {
+  EXPECT_EQ(drop_type({0, 0, 0, 4}, {0, 0, 0, 8}), kCellObstacle);
+  EXPECT_EQ(drop_type({0, 0, 0, 4}, {0, 0, 0, 7}), kCellUnknown);
+  EXPECT_EQ(drop_type({0, 0, 5, 12}, {0, 0, 6, 0}), kCellObstacle);
+  EXPECT_EQ(drop_type({0, 0, 5, 12}, {0, 0, 7, 0}), kCellUnoccupied);  // more floor than that about it
 }
 
 ScoreGeometry level_camera() {
