@@ -51,7 +51,7 @@ class MotionWatch {
   static constexpr std::int64_t kTickNs = 10'000'000;
   static constexpr std::int64_t kFreshNs = 1'600'000'000;
   static constexpr std::int64_t kRememberedNs = 4'500'000'000;
-  static constexpr double kReachM = 4.5;              // farther obstacle cells are not looked at
+  static constexpr double kReachM = 4.5;             // farther obstacle cells are not looked at
   static constexpr double kLeastMeanHeightM = 0.15;  // of a cluster
   static constexpr double kMostExtentM = 1.0;
   static constexpr int kLeastCells = 2;

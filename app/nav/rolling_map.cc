@@ -23,7 +23,7 @@ bool usable(const RollingMapParams& p) {
          p.deceleration_mps2 > 0 && std::isfinite(p.deceleration_mps2) && in(p.radius_m, 1e2) && p.far_hits >= 1 &&
          p.far_hits <= RollingMap::kBelieved && std::isfinite(p.camera.height_m) &&
          std::isfinite(p.camera.forward_m) && std::isfinite(p.camera.left_m) && std::isfinite(p.camera.yaw) &&
-         std::abs(p.camera.angle) <= 1.5;
+         std::abs(p.camera.angle) <= 1.5 && in(p.depth_sigma, 1e2);
 }
 
 }  // namespace
@@ -132,20 +132,38 @@ void RollingMap::see_free(std::size_t i, double forward, double left) {
 
 void RollingMap::clear_seen_free(const NavGrid& frame, const Sight& sight) {
   visit_below(sight, [&](std::size_t i, std::int64_t row, std::int64_t column) {
-    const std::uint8_t type =
-        frame.type.at(static_cast<int>(column >> kFraction), static_cast<int>(row >> kFraction));
+    const auto c = static_cast<int>(column >> kFraction);
+    const auto r = static_cast<int>(row >> kFraction);
+    const std::uint8_t type = frame.type.at(c, r);
     if (type == kCellUnoccupied) {
       see_free(i, cells_of(row) * cell_m_, (sight.half - cells_of(column)) * cell_m_);
-    } else if (type == kCellObstacle && memory_.evidence[i] == kFree) {
+    } else if (type == kCellObstacle && memory_.evidence[i] == kFree && !is_smear(frame, r, c)) {
       memory_.evidence[i] = 0;
     }
   });
 }
 
+bool RollingMap::is_smear(const NavGrid& frame, int row, int col) const {
+  const double forward = (row + 0.5) * cell_m_ - params_.camera.forward_m;
+  const double left = (geometry_.cols / 2.0 - col - 0.5) * cell_m_ - params_.camera.left_m;
+  const double squared = forward * forward + left * left;
+  const int steps = static_cast<int>(std::min<double>(kStreak, 2 * params_.depth_sigma * squared / cell_m_));
+  const double range = std::sqrt(squared);
+  const std::uint32_t count = frame.count.at(col, row);
+  if (steps == 0 || count == 0) return false;  // a drop-off has no points
+  for (int k = -steps; k <= steps; ++k) {
+    const int r = static_cast<int>(std::lround(row + k * forward / range));
+    const int c = static_cast<int>(std::lround(col - k * left / range));
+    if (r < 0 || r >= geometry_.rows || c < 0 || c >= geometry_.cols) continue;
+    if (frame.type.at(c, r) == kCellObstacle && frame.count.at(c, r) / 2 > count) return true;
+  }
+  return false;
+}
+
 void RollingMap::add_obstacles(const NavGrid& frame, const Sight& sight) {
   for (int r = 0; r < geometry_.rows; ++r) {
     for (int c = 0; c < geometry_.cols; ++c) {
-      if (frame.type.at(c, r) != kCellObstacle) continue;
+      if (frame.type.at(c, r) != kCellObstacle || is_smear(frame, r, c)) continue;
       const std::int64_t x = cell_of(sight.x(r + 0.5, c + 0.5));
       const std::int64_t y = cell_of(sight.y(r + 0.5, c + 0.5));
       if (!holds(x, y)) continue;

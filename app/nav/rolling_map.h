@@ -4,7 +4,8 @@
 // Evidence. A frame's obstacle cell adds to the world cell that holds its centre: kBelieved within near_m plus the braking
 // distance, beyond that less with distance, at least kBelieved / far_hits. A cell with kBelieved is an obstacle, with less it is
 // unknown. A world cell whose centre lies in an unoccupied cell of the frame loses kCleared at once, or less from far away, and
-// is unoccupied when nothing is left. Unknown cells of a frame change nothing: what the camera does not see (blind zone, beside,
+// is unoccupied when nothing is left. Far away the error of the depth smears a thing along the line of sight, over the more cells the
+// farther it is; of such a streak, 2 sigma to either side, only cells with at least half the points of the densest add anything. Unknown cells of a frame change nothing: what the camera does not see (blind zone, beside,
 // behind) stays for keep_s, and what is within blind_m for as long as it is there.
 // Floor seen below something does not clear it: an obstacle loses evidence only where the camera's upper edge, as far away as the
 // cell is, lies above the greatest mean height that the cell was seen with. So a bar or a table top that has left the image at
@@ -49,6 +50,8 @@ struct RollingMapParams {
   double deceleration_mps2 = 2.0;  // of braking, > 0
   double radius_m = 0.35;          // the vehicle's
   UpperEdge camera;
+  double depth_sigma =
+      0;  // standard deviation of a depth at 1 m, which grows with its square: sigma_d / (f B), m; 0: no streaks
 };
 
 // One of each for every cell, rolling_map_side() squared.
@@ -72,6 +75,7 @@ class RollingMap {
   static constexpr int kSunk = 2;
   static constexpr std::size_t kThickness = 2;
   static constexpr double kEdgeMarginM = 0.05;  // of the upper edge above a remembered height
+  static constexpr int kStreak = 6;             // cells to either side, at most
   static constexpr std::int64_t kTickNs = 10'000'000;
   static constexpr std::uint32_t kSweepTicks = 50;  // what is old is looked for so often
 
@@ -109,6 +113,7 @@ class RollingMap {
   void see_free(std::size_t i, double forward, double left);
   bool sees_height(std::size_t i, double forward, double left) const;
   void add_obstacles(const NavGrid& frame, const Sight& sight);
+  bool is_smear(const NavGrid& frame, int row, int col) const;
   void stand_here(const Sight& sight);
   Run run_of(const Sight& sight, std::int64_t y) const;
   template <class Visit>

@@ -24,6 +24,8 @@ constexpr int kStopShare = 82;  // of the squared distance that a way keeps: nea
 constexpr double kKept = 0.7;   // share of its cost that a cell of the last way has
 constexpr int kStraight = 10;   // length of a step, tenths of a cell
 constexpr int kDiagonal = 14;
+constexpr int kSunkCells = 3;
+constexpr double kSeenBehind = 3;  // cells behind the blind zone in which its floor may begin to show
 constexpr double kBorderWeight = 1.0 * kStraight * kOpen;  // of what is left to go beyond the window, per cell
 
 struct Step {
@@ -96,6 +98,28 @@ void RoutePlanner::measure_distances() {
         }
       }
     }
+  }
+}
+
+void RoutePlanner::remember_place(double x, double y) {
+  const Point here{x_begin_ + static_cast<std::int64_t>(x), y_begin_ + static_cast<std::int64_t>(y)};
+  if (trail_count_ > 0) {
+    const Point& last = trail_[static_cast<std::size_t>((trail_count_ - 1) % kRouteTrail)];
+    if (last.x == here.x && last.y == here.y) return;
+  }
+  trail_[static_cast<std::size_t>(trail_count_ % kRouteTrail)] = here;
+  if (++trail_count_ == 2 * kRouteTrail) trail_count_ = kRouteTrail;
+}
+
+// What stands within kSunkCells of where the vehicle has been was not there then.
+void RoutePlanner::open_trail() {
+  for (int k = 0; k < std::min(trail_count_, kRouteTrail); ++k) {
+    const Point& p = trail_[static_cast<std::size_t>(k)];
+    const auto u = static_cast<int>(p.x - x_begin_);
+    const auto v = static_cast<int>(p.y - y_begin_);
+    if (!inside(u, v)) continue;
+    std::uint8_t& distance2 = memory_.distance2[static_cast<std::size_t>(index(u, v))];
+    if (distance2 >= kSunkCells * kSunkCells) distance2 = std::max(distance2, static_cast<std::uint8_t>(closed2_));
   }
 }
 
@@ -259,13 +283,16 @@ bool RoutePlanner::straight_is_free(double x, double y, double to_x, double to_y
 }
 
 // Along a straight line of the turning centre: to the obstacle before which the vehicle's side comes too near to one (nearer than it
-// is already, where it is too near), or to the first cell beyond the blind zone that is not known to be free.
+// is already, where it is too near), or to the first cell that is not known to be free. Such cells of the blind zone are passed over
+// where a free one follows in it or right behind it: floor that begins where it can be seen began before, too, and where none is
+// seen there may be a wall that shows nothing to match.
 ClearDistance RoutePlanner::clear_along(double x, double y, double angle) const {
   const double dx = std::cos(angle) / 2;
   const double dy = std::sin(angle) / 2;
   const int least2 =
       std::min<int>(kStopShare * closed2_ / 100, memory_.distance2[static_cast<std::size_t>(start_)]);
-  const double blind = params_.blind_m / cell_m_ + 1;
+  const double blind = params_.blind_m / cell_m_ + kSeenBehind;
+  double unknown = 0;  // where the unknown cells begin that no free one has followed yet
   for (int k = 1;; ++k) {
     const int u = static_cast<int>(std::floor(x + k * dx));
     const int v = static_cast<int>(std::floor(y + k * dy));
@@ -273,7 +300,12 @@ ClearDistance RoutePlanner::clear_along(double x, double y, double angle) const 
     if (!inside(u, v)) return {length * cell_m_, ClearEnd::unknown};
     const auto i = static_cast<std::size_t>(index(u, v));
     if (memory_.distance2[i] < least2) return {length * cell_m_ + params_.radius_m, ClearEnd::obstacle};
-    if (memory_.type[i] == kCellUnknown && length > blind) return {length * cell_m_, ClearEnd::unknown};
+    if (memory_.type[i] != kCellUnknown) {
+      unknown = 0;
+    } else {
+      if (unknown == 0) unknown = length;
+      if (length > blind) return {unknown * cell_m_, ClearEnd::unknown};
+    }
   }
 }
 
@@ -313,6 +345,8 @@ Status RoutePlanner::plan(const RollingMap& map, const Pose& pose, double target
   const double goal_x = target_east_m / cell_m_ - static_cast<double>(x_begin_);
   const double goal_y = target_north_m / cell_m_ - static_cast<double>(y_begin_);
   measure_distances();
+  remember_place(x, y);
+  open_trail();
   price_cells(pose, x, y);
   start_ = index(static_cast<int>(x), static_cast<int>(y));
   search(start_, -1);

@@ -4,7 +4,8 @@
 // vehicle's radius and a margin are closed, cells within a comfortable distance cost more the nearer they are (so that a way keeps
 // to the middle of a gap), unknown cells cost more than free ones, and unknown cells right before the camera, which it should have
 // seen long ago, still more. The way of the plan before costs less than others: of two that are about as good the vehicle keeps to
-// the one that it has begun. A target beyond the window is sought by the way to the border that leaves least to go.
+// the one that it has begun. Where the vehicle itself has just been it fits, even if the map has grown more careful since: a gap that
+// closes about it is left the way that it came. A target beyond the window is sought by the way to the border that leaves least to go.
 // The direction is that of the farthest point of the way, up to reach_m ahead, that a straight line reaches without coming nearer
 // to obstacles than the way itself does.
 //
@@ -37,6 +38,7 @@ struct RouteParams {
 inline constexpr int kRouteSide = 160;  // cells of the window's side
 inline constexpr int kRouteCells = kRouteSide * kRouteSide;
 inline constexpr int kRouteMostPoints = 1024;
+inline constexpr int kRouteTrail = 64;  // cells
 
 // The caller's, kRouteCells each.
 struct RouteMemory {
@@ -65,8 +67,8 @@ class RoutePlanner {
  public:
   // bad_argument: a parameter that is not finite or out of range; size_mismatch: the memory. Keeps the memory.
   Status configure(const RouteParams& params, std::int32_t cell_mm, const RouteMemory& memory);
-  // Forgets the way of the plan before.
-  void reset() { count_ = 0; }
+  // Forgets the way of the plan before, and where the vehicle has been.
+  void reset() { count_ = trail_count_ = 0; }
 
   // The map as of its last add(), made at `pose`; target in the world frame, metres. bad_argument: not finite.
   // turning: the angle that the vehicle will turn further even if it is told otherwise, rad.
@@ -83,6 +85,8 @@ class RoutePlanner {
   static bool inside(int x, int y) { return x >= 0 && x < kRouteSide && y >= 0 && y < kRouteSide; }
 
   void measure_distances();
+  void remember_place(double x, double y);
+  void open_trail();
   void price_cells(const Pose& pose, double x, double y);
   void search(int start, int goal);
   void push(int cell, std::int32_t cost);
@@ -105,6 +109,8 @@ class RoutePlanner {
   int start_ = 0;
   std::array<Point, kRouteMostPoints> points_{};  // of the last way, from the vehicle on
   int count_ = 0;
+  std::array<Point, kRouteTrail> trail_{};  // where the turning centre has been: a ring, the oldest overwritten
+  int trail_count_ = 0;                     // of all so far, until it is as large as twice the ring
 };
 
 }  // namespace lakshya

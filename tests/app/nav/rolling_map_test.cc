@@ -88,6 +88,30 @@ class RollingMapTest : public ::testing::Test {
   MapPose at;
 };
 
+// A wall 5 m away, smeared over 1.5 m of depth: 0.27 m is the error of its depth there.
+TEST_F(RollingMapTest, OfAStreakOnlyTheDenseCellsAreBelieved) {
+  params.depth_sigma = 0.011;
+  params.near_m = 10;
+  configure();
+  fill(kCellUnoccupied);
+  add();
+  for (int r = 43; r < 58; ++r) {
+    block(r, r + 1, 38, 42, kCellObstacle);
+    const int off = std::abs(r - 50);
+    for (int c = 38; c < 42; ++c)
+      count.view().at(c, r) = static_cast<std::uint32_t>(100 * std::exp(-off * off / (2 * 2.7 * 2.7)));
+  }
+  add();
+  EXPECT_EQ(cell(50, 40), kCellObstacle);
+  EXPECT_EQ(cell(48, 40), kCellObstacle);    // 0.76 of the densest
+  EXPECT_EQ(cell(45, 40), kCellUnoccupied);  // 0.18 of it: still as it was
+  EXPECT_EQ(cell(55, 40), kCellUnoccupied);
+  params.depth_sigma = 0;
+  configure();
+  add();
+  EXPECT_EQ(cell(45, 40), kCellObstacle);
+}
+
 TEST_F(RollingMapTest, AFrameOfTheStandingVehicleIsShownAsItIs) {
   configure();
   fill(kCellUnoccupied);

@@ -32,9 +32,13 @@ class RouteTest : public ::testing::Test {
     EXPECT_EQ(planner_.configure(route_params_, geometry_.cell_mm, memory), Status::ok);
   }
 
-  // An obstacle cell wherever `is_obstacle(east, north)` of its centre.
+  // An obstacle cell wherever `is_obstacle(east, north)` of its centre, and nothing known wherever `is_unknown`.
   template <class F>
   void see(F is_obstacle) {
+    see(is_obstacle, [](double, double) { return false; });
+  }
+  template <class F, class G>
+  void see(F is_obstacle, G is_unknown) {
     for (const double yaw : {0.0, std::numbers::pi / 2, std::numbers::pi, -std::numbers::pi / 2}) {
       const Pose pose{0, 0, yaw};
       for (int r = 0; r < geometry_.rows; ++r) {
@@ -44,7 +48,8 @@ class RouteTest : public ::testing::Test {
           const double east = forward * std::cos(yaw) - left * std::sin(yaw);
           const double north = forward * std::sin(yaw) + left * std::cos(yaw);
           const bool obstacle = is_obstacle(east, north);
-          type_.view().at(c, r) = obstacle ? kCellObstacle : kCellUnoccupied;
+          type_.view().at(c, r) =
+              obstacle ? kCellObstacle : (is_unknown(east, north) ? kCellUnknown : kCellUnoccupied);
           count_.view().at(c, r) = obstacle ? 10 : 0;
           height_sum_.view().at(c, r) = obstacle ? 3000 : 0;
         }
@@ -93,6 +98,37 @@ TEST_F(RouteTest, GoesStraightInTheOpen) {
   EXPECT_NEAR(route.direction, 0, radians(5));
   EXPECT_NEAR(route.cost_m, 5, 0.2);
   EXPECT_GT(route.clear_m, 4);
+}
+
+// The blind zone is passed over where floor is seen behind it: 1 m by default, and 0.3 m more.
+TEST_F(RouteTest, WhereNoFloorIsSeenTheWayIsNotClear) {
+  const auto nothing = [](double, double) { return false; };
+  see(nothing, [](double x, double y) { return std::hypot(x, y) > 0.3 && std::hypot(x, y) < 1.2; });
+  const Route passed = plan(5, 0);
+  EXPECT_GT(passed.clear_m, 4);
+  for (auto& e : evidence_)
+    e = 0;
+  see(nothing, [](double x, double y) { return std::hypot(x, y) > 0.3; });
+  const Route stopped = plan(5, 0);
+  EXPECT_LT(stopped.clear_m, 0.5);
+  EXPECT_EQ(stopped.clear_end, ClearEnd::unknown);
+}
+
+// A corridor that the vehicle has come along grows narrower about it than it may go into: it leaves the way that it came.
+TEST_F(RouteTest, WhereItHasBeenItFits) {
+  const auto corridor = [](double half_m) {
+    return [half_m](double x, double y) { return (std::abs(y) > half_m && x > -1) || x > 2; };
+  };
+  see(corridor(0.6));
+  for (double x = -1.5; x <= 0.5; x += 0.1)
+    EXPECT_TRUE(plan(5, 0, {x, 0, 0}).found);
+  see(corridor(0.3));
+  const Route back = plan(-4, 0, {0.5, 0, 0});
+  EXPECT_TRUE(back.reaches_target);
+  EXPECT_NEAR(std::abs(back.direction), radians(180), radians(10));
+  EXPECT_GT(back.clear_m, 1);
+  planner_.reset();
+  EXPECT_FALSE(plan(-4, 0, {0.5, 0, 0}).reaches_target);
 }
 
 TEST_F(RouteTest, TheDirectionIsTheVehiclesOwn) {
