@@ -79,8 +79,11 @@ void RollingMap::forget_old() {
   swept_ = now_;
   std::uint8_t* evidence = memory_.evidence.data();
   const std::uint32_t* seen = memory_.seen.data();
-  for (std::size_t i = 0; i < memory_.evidence.size(); ++i)
-    evidence[i] = now_ - seen[i] > keep_ ? std::uint8_t{0} : evidence[i];
+  for (std::size_t i = 0; i < memory_.evidence.size(); ++i) {
+    const auto believed = static_cast<std::uint64_t>(std::max<int>(evidence[i] - kFree, kBelieved));
+    const std::uint64_t age = now_ - seen[i];
+    evidence[i] = age * kBelieved > keep_ * believed ? std::uint8_t{0} : evidence[i];
+  }
 }
 
 // The square's corner goes to (x, y); rows and columns that come in start empty, in the place of those that leave.

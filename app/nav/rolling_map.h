@@ -6,7 +6,8 @@
 // unknown. A world cell whose centre lies in an unoccupied cell of the frame loses kCleared at once, or less from far away, and
 // is unoccupied when nothing is left. Far away the error of the depth smears a thing along the line of sight, over the more cells the
 // farther it is; of such a streak, 2 sigma to either side, only cells with at least half the points of the densest add anything. Unknown cells of a frame change nothing: what the camera does not see (blind zone, beside,
-// behind) stays for keep_s, and what is within blind_m for as long as it is there.
+// behind) stays for keep_s, an obstacle for keep_s for each kBelieved of its evidence, and what is within blind_m for as long as the
+// vehicle is there.
 // Floor seen below something does not clear it: an obstacle loses evidence only where the camera's upper edge, as far away as the
 // cell is, lies above the greatest mean height that the cell was seen with. So a bar or a table top that has left the image at
 // the top stays.

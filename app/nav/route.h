@@ -6,6 +6,8 @@
 // seen long ago, still more. The way of the plan before costs less than others: of two that are about as good the vehicle keeps to
 // the one that it has begun. Where the vehicle itself has just been it fits, even if the map has grown more careful since: a gap that
 // closes about it is left the way that it came. A target beyond the window is sought by the way to the border that leaves least to go.
+// Where no way leads to the target, the cheapest one through closed cells shows which of them to doubt: the vehicle goes to where it
+// has them in view from farther than its blind zone, turns towards them, and looks at the next place if they stay closed.
 // The direction is that of the farthest point of the way, up to reach_m ahead, that a straight line reaches without coming nearer
 // to obstacles than the way itself does.
 //
@@ -39,6 +41,7 @@ inline constexpr int kRouteSide = 160;  // cells of the window's side
 inline constexpr int kRouteCells = kRouteSide * kRouteSide;
 inline constexpr int kRouteMostPoints = 1024;
 inline constexpr int kRouteTrail = 64;  // cells
+inline constexpr int kRouteLooks = 8;   // places
 
 // The caller's, kRouteCells each.
 struct RouteMemory {
@@ -53,6 +56,7 @@ struct RouteMemory {
 
 struct Route {
   bool found = false;
+  bool looks = false;     // stands and turns towards a place that it doubts: clear_m and swept_m are 0
   double direction = 0;   // rad, from straight ahead, counter-clockwise
   double straight_m = 0;  // to the point that it aims at
   // See RouteAim (planner.h).
@@ -68,7 +72,7 @@ class RoutePlanner {
   // bad_argument: a parameter that is not finite or out of range; size_mismatch: the memory. Keeps the memory.
   Status configure(const RouteParams& params, std::int32_t cell_mm, const RouteMemory& memory);
   // Forgets the way of the plan before, and where the vehicle has been.
-  void reset() { count_ = trail_count_ = 0; }
+  void reset() { count_ = trail_count_ = looked_at_count_ = looks_ = 0; }
 
   // The map as of its last add(), made at `pose`; target in the world frame, metres. bad_argument: not finite.
   // turning: the angle that the vehicle will turn further even if it is told otherwise, rad.
@@ -93,7 +97,18 @@ class RoutePlanner {
   void remove(int cell);
   int choose_end(double goal_x, double goal_y) const;
   void follow_back(int end);
+  bool reaches(int end, double goal_x, double goal_y) const;
+  int look_again(const Pose& pose, double x, double y, double goal_x, double goal_y, Route& route);
+  void open_closed_cells(bool all);
+  void close_again();
+  int place_on_the_way(bool through_obstacles, double goal_x, double goal_y);
+  int doubtful_place(double goal_x, double goal_y);
+  int view_point(int place) const;
+  bool sees(double x, double y, double place_x, double place_y) const;
+  bool has_been_looked_at(double u, double v) const;
+  void note_looked_at(const Point& place);
   bool straight_is_free(double x, double y, double to_x, double to_y, int least_distance2) const;
+  double unseen_from(double x, double y, double dx, double dy) const;
   ClearDistance clear_along(double x, double y, double angle) const;
   void aim(const Pose& pose, double x, double y, Route& route) const;
 
@@ -109,8 +124,11 @@ class RoutePlanner {
   int start_ = 0;
   std::array<Point, kRouteMostPoints> points_{};  // of the last way, from the vehicle on
   int count_ = 0;
-  std::array<Point, kRouteTrail> trail_{};  // where the turning centre has been: a ring, the oldest overwritten
-  int trail_count_ = 0;                     // of all so far, until it is as large as twice the ring
+  std::array<Point, kRouteTrail> trail_{};      // where the turning centre has been: a ring, the oldest overwritten
+  int trail_count_ = 0;                         // of all so far, until it is as large as twice the ring
+  std::array<Point, kRouteLooks> looked_at_{};  // in vain
+  int looked_at_count_ = 0;
+  int looks_ = 0;  // plans in which it has faced the place that it doubts
 };
 
 }  // namespace lakshya

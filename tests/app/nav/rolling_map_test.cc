@@ -194,15 +194,27 @@ TEST_F(RollingMapTest, WhatIsNotSeenStaysUntilItsTimeIsOver) {
     ASSERT_EQ(obstacles(), 4) << i;
   }
   fill(kCellUnknown);
-  // So near it stays for as long as the vehicle stands there, 1.2 m away for its time.
+  // So near it stays for as long as the vehicle stands there, 1.2 m away for its time: three of keep_s for what was seen often.
   add(10 * params.keep_s);
   EXPECT_EQ(obstacles(), 4);
   at.pose.east_m -= 1.2;
+  add(3 * params.keep_s - 1);
+  EXPECT_GE(obstacles(), 4);  // what was free about it is forgotten, and it has its thickness
+  add(1.6);
+  EXPECT_EQ(obstacles(), 0);
+  EXPECT_EQ(cell(14, 45), kCellUnknown);
+}
+
+TEST_F(RollingMapTest, WhatOneFrameShowedIsForgottenSooner) {
+  configure();
+  fill(kCellUnoccupied);
+  block(14, 16, 40, 42, kCellObstacle);
+  add();
+  fill(kCellUnknown);
   add(params.keep_s - 1);
   EXPECT_EQ(obstacles(), 4);
   add(1.6);
   EXPECT_EQ(obstacles(), 0);
-  EXPECT_EQ(cell(14, 45), kCellUnknown);
 }
 
 // Rules e and f: the floor below a bar that has left the image at the top does not clear it; from far away, where the camera sees

@@ -131,6 +131,46 @@ TEST_F(RouteTest, WhereItHasBeenItFits) {
   EXPECT_FALSE(plan(-4, 0, {0.5, 0, 0}).reaches_target);
 }
 
+// A room in two halves; the wall between them has two gaps, both narrower than the vehicle, at y = 0 the wider one.
+bool divided_room(double x, double y) {
+  const bool outside = std::abs(x) > 4 || std::abs(y) > 3;
+  const bool gap = std::abs(y) < 0.3 || std::abs(y - 2) < 0.2;
+  return outside || (x > 1.9 && x < 2.2 && !gap);
+}
+
+TEST_F(RouteTest, WithoutAWayItLooksAtTheWidestGap) {
+  see(divided_room);
+  const Route route = plan(3.5, 0);
+  EXPECT_TRUE(route.found);
+  EXPECT_TRUE(route.looks);
+  EXPECT_FALSE(route.reaches_target);
+  EXPECT_NEAR(route.direction, 0, radians(10));
+  EXPECT_EQ(route.clear_m, 0);
+  EXPECT_NEAR(plan(3.5, 0, {0, 0, radians(90)}).direction, radians(-90), radians(10));
+}
+
+TEST_F(RouteTest, ItLooksFromFartherThanItsBlindZone) {
+  see(divided_room);
+  const Route route = plan(3.5, 0, {1.2, 0, 0});
+  EXPECT_TRUE(route.found);
+  EXPECT_FALSE(route.looks);
+  EXPECT_GT(std::abs(route.direction), radians(90));  // backwards
+}
+
+TEST_F(RouteTest, WhatStaysClosedIsLeftForTheNextPlace) {
+  see(divided_room);
+  int plans = 0;
+  while (plans < 30 && plan(3.5, 0).direction < radians(20))
+    ++plans;
+  EXPECT_GE(plans, 5);
+  EXPECT_LT(plans, 15);
+  const Route next = plan(3.5, 0);
+  EXPECT_NEAR(next.direction, std::atan2(2, 1.7), radians(15));
+  for (int i = 0; i < 8; ++i)
+    see([](double x, double y) { return divided_room(x, y) && !(std::abs(y) < 0.6 && std::abs(x) < 4); });
+  EXPECT_TRUE(plan(3.5, 0).reaches_target);
+}
+
 TEST_F(RouteTest, TheDirectionIsTheVehiclesOwn) {
   see([](double, double) { return false; });
   EXPECT_NEAR(plan(0, 5).direction, radians(90), radians(5));

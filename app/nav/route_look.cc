@@ -1,0 +1,145 @@
+// Where no way leads to the target: which closed place is most likely to be open after all, and where to look at it from.
+#include <algorithm>
+#include <cmath>
+
+#include "app/nav/route_cells.h"
+#include "app/nav/sectors.h"
+
+namespace lakshya {
+namespace {
+
+// Factors of closed cells for the question which of them the way would lead through, by what is left of the vehicle's radius.
+constexpr std::uint8_t kThrough = 255;
+constexpr std::uint8_t kHardly = 200;
+constexpr std::uint8_t kNearly = 100;
+constexpr int kHardly2 = 4;  // squared distances to the nearest obstacle cell, from which on
+constexpr int kNearly2 = 9;
+
+constexpr double kLeastWay = 12;  // cells between the vehicle that looks and the place
+constexpr double kMostWay = 18;
+constexpr double kArrived = 2;      // cells
+constexpr double kFaces = 0.25;     // rad
+constexpr int kLooks = 8;           // plans for which it faces the place
+constexpr double kSamePlace = 10;   // cells
+constexpr double kPlaceItself = 6;  // cells before it that may hide it: they are what is doubted
+
+}  // namespace
+
+bool RoutePlanner::has_been_looked_at(double u, double v) const {
+  for (int k = 0; k < looked_at_count_; ++k) {
+    const Point& p = looked_at_[static_cast<std::size_t>(k)];
+    const double du = static_cast<double>(p.x - x_begin_) - u;
+    const double dv = static_cast<double>(p.y - y_begin_) - v;
+    if (du * du + dv * dv < kSamePlace * kSamePlace) return true;
+  }
+  return false;
+}
+
+// Lets the search through closed cells, at a price; through obstacle cells only if `all`. What has been looked at stays closed.
+void RoutePlanner::open_closed_cells(bool all) {
+  for (int cell = 0; cell < kRouteCells; ++cell) {
+    const auto i = static_cast<std::size_t>(cell);
+    const int d2 = memory_.distance2[i];
+    if (memory_.factor[i] != kRouteClosed || (d2 == 0 && !all)) continue;
+    if (looked_at_count_ > 0 && has_been_looked_at(cell % kRouteSide, cell / kRouteSide)) continue;
+    memory_.type[i] |= kRouteShut;
+    memory_.factor[i] = d2 < kHardly2 ? kThrough : (d2 < kNearly2 ? kHardly : kNearly);
+  }
+}
+
+void RoutePlanner::close_again() {
+  for (std::size_t i = 0; i < memory_.type.size(); ++i) {
+    if ((memory_.type[i] & kRouteShut) == 0) continue;
+    memory_.type[i] = static_cast<std::uint8_t>(memory_.type[i] & ~kRouteShut);
+    memory_.factor[i] = kRouteClosed;
+  }
+}
+
+// The first closed cell of the cheapest way that goes through closed cells; -1: none.
+int RoutePlanner::place_on_the_way(bool through_obstacles, double goal_x, double goal_y) {
+  open_closed_cells(through_obstacles);
+  search(start_, -1);
+  const int end = choose_end(goal_x, goal_y);
+  int place = -1;
+  for (int cell = end; cell != start_ && reaches(end, goal_x, goal_y);) {
+    if ((memory_.type[static_cast<std::size_t>(cell)] & kRouteShut) != 0) place = cell;
+    const RouteStep& step = kRouteSteps[memory_.from[static_cast<std::size_t>(cell)]];
+    cell = index(cell % kRouteSide - step.x, cell / kRouteSide - step.y);
+  }
+  close_again();
+  return place;
+}
+
+// The place to look at: a gap that was not looked at yet, else any gap, else where the way is barred by least. -1: none. Leaves the
+// factors as they were, and the costs of the search from the vehicle through what is open.
+int RoutePlanner::doubtful_place(double goal_x, double goal_y) {
+  int place = place_on_the_way(false, goal_x, goal_y);
+  if (place < 0 && looked_at_count_ > 0) {
+    looked_at_count_ = 0;
+    place = place_on_the_way(false, goal_x, goal_y);
+  }
+  if (place < 0) place = place_on_the_way(true, goal_x, goal_y);
+  search(start_, -1);
+  return place;
+}
+
+bool RoutePlanner::sees(double x, double y, double place_x, double place_y) const {
+  const double length = std::hypot(place_x - x, place_y - y);
+  const int steps = static_cast<int>(2 * (length - kPlaceItself));
+  for (int k = 1; k <= steps; ++k) {
+    const double t = k / (2 * length);
+    const auto u = static_cast<int>(x + t * (place_x - x));
+    const auto v = static_cast<int>(y + t * (place_y - y));
+    if (memory_.distance2[static_cast<std::size_t>(index(u, v))] == 0) return false;
+  }
+  return true;
+}
+
+// The cell from which the place is in view at a good distance that costs least; -1: none.
+int RoutePlanner::view_point(int place) const {
+  const int px = place % kRouteSide;
+  const int py = place / kRouteSide;
+  const int reach = static_cast<int>(kMostWay);
+  int best = -1;
+  for (int v = std::max(py - reach, 0); v <= std::min(py + reach, kRouteSide - 1); ++v) {
+    for (int u = std::max(px - reach, 0); u <= std::min(px + reach, kRouteSide - 1); ++u) {
+      const double way = std::hypot(u - px, v - py);
+      const std::int32_t cost = memory_.cost[static_cast<std::size_t>(index(u, v))];
+      if (way < kLeastWay || way > kMostWay || cost == kRouteFar) continue;
+      if (best >= 0 && cost >= memory_.cost[static_cast<std::size_t>(best)]) continue;
+      if (sees(u + 0.5, v + 0.5, px + 0.5, py + 0.5)) best = index(u, v);
+    }
+  }
+  return best;
+}
+
+void RoutePlanner::note_looked_at(const Point& place) {
+  looks_ = 0;
+  if (looked_at_count_ == kRouteLooks) looked_at_count_ = 0;  // all once more
+  looked_at_[static_cast<std::size_t>(looked_at_count_++)] = place;
+}
+
+int RoutePlanner::look_again(const Pose& pose, double x, double y, double goal_x, double goal_y, Route& route) {
+  const int place = doubtful_place(goal_x, goal_y);
+  if (place < 0) return -1;
+  const Point at{x_begin_ + place % kRouteSide, y_begin_ + place / kRouteSide};
+  const double dx = place % kRouteSide + 0.5 - x;
+  const double dy = place / kRouteSide + 0.5 - y;
+  const double way = std::hypot(dx, dy);
+  const bool stands_well = way > kLeastWay - kArrived && way < kMostWay + kArrived &&
+                           sees(x, y, place % kRouteSide + 0.5, place / kRouteSide + 0.5);
+  if (!stands_well) {
+    looks_ = 0;
+    const int from = view_point(place);
+    if (from < 0) note_looked_at(at);
+    return from;
+  }
+  route.found = true;
+  route.looks = true;
+  route.direction = wrap_angle(std::atan2(dy, dx) - pose.yaw);
+  if (std::abs(route.direction) > kFaces) return start_;
+  if (++looks_ >= kLooks) note_looked_at(at);
+  return start_;
+}
+
+}  // namespace lakshya
