@@ -20,7 +20,8 @@ constexpr int kSlowHits = 8;      // until a mover has stopped
 constexpr double kSlowMps = 0.12;
 constexpr double kFoundM = 0.2;  // gone in kFoundS, and one that was lost is found
 constexpr double kFoundS = 1.0;
-constexpr double kTrialS = 1.5;  // in which a track must have gone kConfirmM
+constexpr double kTrialS = 1.5;     // in which a track must have gone kConfirmM
+constexpr double kStandsMps = 0.1;  // the vehicle itself
 
 }  // namespace
 
@@ -45,7 +46,8 @@ MotionWatch::Track MotionWatch::begun(const Cluster& c, std::int64_t time_ns) {
 
 void MotionWatch::measure(Track& t, const Cluster& c, std::int64_t time_ns, double dt_s) {
   const double unseen_s = static_cast<double>(time_ns - t.seen_ns) * kNanosecond;
-  if (!t.moves && c.cut && turns_) {
+  // The border of the view sweeps along what stands.
+  if (!t.moves && c.cut && (turns_ || speed_mps_ > kStandsMps)) {
     t = begun(c, time_ns);
     return;
   }

@@ -143,8 +143,6 @@ Status RoutePlanner::plan(const RollingMap& map, const Pose& pose, double target
   const double goal_x = target_east_m / cell_m_ - static_cast<double>(x_begin_);
   const double goal_y = target_north_m / cell_m_ - static_cast<double>(y_begin_);
   measure_distances();
-  remember_place(x, y);
-  open_trail();
   price_cells(pose, x, y);
   start_ = index(static_cast<int>(x), static_cast<int>(y));
   search(start_, -1);

@@ -4,8 +4,7 @@
 // vehicle's radius and a margin are closed, cells within a comfortable distance cost more the nearer they are (so that a way keeps
 // to the middle of a gap), unknown cells cost more than free ones, and unknown cells right before the camera, which it should have
 // seen long ago, still more. The way of the plan before costs less than others: of two that are about as good the vehicle keeps to
-// the one that it has begun. Where the vehicle itself has just been it fits, even if the map has grown more careful since: a gap that
-// closes about it is left the way that it came. A target beyond the window is sought by the way to the border that leaves least to go.
+// the one that it has begun. A target beyond the window is sought by the way to the border that leaves least to go.
 // Where no way leads to the target, the cheapest one through closed cells shows which of them to doubt: the vehicle goes to where it
 // has them in view from farther than its blind zone, turns towards them, and looks at the next place if they stay closed.
 // The direction is that of the farthest point of the way, up to reach_m ahead, that a straight line reaches without coming nearer
@@ -40,8 +39,7 @@ struct RouteParams {
 inline constexpr int kRouteSide = 160;  // cells of the window's side
 inline constexpr int kRouteCells = kRouteSide * kRouteSide;
 inline constexpr int kRouteMostPoints = 1024;
-inline constexpr int kRouteTrail = 64;  // cells
-inline constexpr int kRouteLooks = 8;   // places
+inline constexpr int kRouteLooks = 8;  // places
 
 // The caller's, kRouteCells each.
 struct RouteMemory {
@@ -71,8 +69,8 @@ class RoutePlanner {
  public:
   // bad_argument: a parameter that is not finite or out of range; size_mismatch: the memory. Keeps the memory.
   Status configure(const RouteParams& params, std::int32_t cell_mm, const RouteMemory& memory);
-  // Forgets the way of the plan before, and where the vehicle has been.
-  void reset() { count_ = trail_count_ = looked_at_count_ = looks_ = 0; }
+  // Forgets the way of the plan before, and what was looked at.
+  void reset() { count_ = looked_at_count_ = looks_ = 0; }
 
   // The map as of its last add(), made at `pose`; target in the world frame, metres. bad_argument: not finite.
   // turning: the angle that the vehicle will turn further even if it is told otherwise, rad.
@@ -89,8 +87,6 @@ class RoutePlanner {
   static bool inside(int x, int y) { return x >= 0 && x < kRouteSide && y >= 0 && y < kRouteSide; }
 
   void measure_distances();
-  void remember_place(double x, double y);
-  void open_trail();
   void price_cells(const Pose& pose, double x, double y);
   void search(int start, int goal);
   void push(int cell, std::int32_t cost);
@@ -124,8 +120,6 @@ class RoutePlanner {
   int start_ = 0;
   std::array<Point, kRouteMostPoints> points_{};  // of the last way, from the vehicle on
   int count_ = 0;
-  std::array<Point, kRouteTrail> trail_{};      // where the turning centre has been: a ring, the oldest overwritten
-  int trail_count_ = 0;                         // of all so far, until it is as large as twice the ring
   std::array<Point, kRouteLooks> looked_at_{};  // in vain
   int looked_at_count_ = 0;
   int looks_ = 0;  // plans in which it has faced the place that it doubts

@@ -15,7 +15,6 @@ constexpr int kUnknownNear = 80;  // ... of one that the camera should have seen
 constexpr int kEscape = 150;      // ... of one that is too near to an obstacle, on the way out from there
 constexpr int kEscapeCells = 6;
 constexpr double kKept = 0.7;  // share of its cost that a cell of the last way has
-constexpr int kSunkCells = 3;
 
 }  // namespace
 
@@ -43,28 +42,6 @@ void RoutePlanner::measure_distances() {
         }
       }
     }
-  }
-}
-
-void RoutePlanner::remember_place(double x, double y) {
-  const Point here{x_begin_ + static_cast<std::int64_t>(x), y_begin_ + static_cast<std::int64_t>(y)};
-  if (trail_count_ > 0) {
-    const Point& last = trail_[static_cast<std::size_t>((trail_count_ - 1) % kRouteTrail)];
-    if (last.x == here.x && last.y == here.y) return;
-  }
-  trail_[static_cast<std::size_t>(trail_count_ % kRouteTrail)] = here;
-  if (++trail_count_ == 2 * kRouteTrail) trail_count_ = kRouteTrail;
-}
-
-// What stands within kSunkCells of where the vehicle has been was not there then.
-void RoutePlanner::open_trail() {
-  for (int k = 0; k < std::min(trail_count_, kRouteTrail); ++k) {
-    const Point& p = trail_[static_cast<std::size_t>(k)];
-    const auto u = static_cast<int>(p.x - x_begin_);
-    const auto v = static_cast<int>(p.y - y_begin_);
-    if (!inside(u, v)) continue;
-    std::uint8_t& distance2 = memory_.distance2[static_cast<std::size_t>(index(u, v))];
-    if (distance2 >= kSunkCells * kSunkCells) distance2 = std::max(distance2, static_cast<std::uint8_t>(closed2_));
   }
 }
 

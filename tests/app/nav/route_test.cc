@@ -114,23 +114,6 @@ TEST_F(RouteTest, WhereNoFloorIsSeenTheWayIsNotClear) {
   EXPECT_EQ(stopped.clear_end, ClearEnd::unknown);
 }
 
-// A corridor that the vehicle has come along grows narrower about it than it may go into: it leaves the way that it came.
-TEST_F(RouteTest, WhereItHasBeenItFits) {
-  const auto corridor = [](double half_m) {
-    return [half_m](double x, double y) { return (std::abs(y) > half_m && x > -1) || x > 2; };
-  };
-  see(corridor(0.6));
-  for (double x = -1.5; x <= 0.5; x += 0.1)
-    EXPECT_TRUE(plan(5, 0, {x, 0, 0}).found);
-  see(corridor(0.3));
-  const Route back = plan(-4, 0, {0.5, 0, 0});
-  EXPECT_TRUE(back.reaches_target);
-  EXPECT_NEAR(std::abs(back.direction), radians(180), radians(10));
-  EXPECT_GT(back.clear_m, 1);
-  planner_.reset();
-  EXPECT_FALSE(plan(-4, 0, {0.5, 0, 0}).reaches_target);
-}
-
 // A room in two halves; the wall between them has two gaps, both narrower than the vehicle, at y = 0 the wider one.
 bool divided_room(double x, double y) {
   const bool outside = std::abs(x) > 4 || std::abs(y) > 3;
