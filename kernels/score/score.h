@@ -12,7 +12,7 @@
 // wrong matches lie alone. An obstacle with count < kSurePoints n_min is one only if
 //   the counts of the 3 x 3 cells about it add up to kSurePoints n_min, and
 //   its mean height is at least 2 h_min, or count >= floor_count (noise lifts a little of the floor)
-// and a drop-off only if the below_counts about it add up to kSurePoints n_below and to more than the floor_counts. Otherwise the cell is
+// and a drop-off only if the below_counts about it add up to kSureDrops n_below and to more than the floor_counts. Otherwise the cell is
 // unoccupied with floor_count >= n_floor, and unknown without.
 #pragma once
 
@@ -57,7 +57,8 @@ Status build_score_table(const GridGeometry& grid, const ScoreGeometry& geometry
 Status score_ref(std::span<const CellThresholds> thresholds, std::int32_t min_height_mm, const NavGrid& grid);
 Status score_simd(std::span<const CellThresholds> thresholds, std::int32_t min_height_mm, const NavGrid& grid);
 
-inline constexpr std::uint32_t kSurePoints = 3;
+inline constexpr std::uint32_t kSurePoints = 5;
+inline constexpr std::uint32_t kSureDrops = 3;
 
 // What both refuse.
 Status check_score_arguments(std::span<const CellThresholds> thresholds, std::int32_t min_height_mm,

@@ -45,7 +45,7 @@ bool stands_alone(const CellThresholds& least, std::int32_t min_height_mm, const
     const bool low = heights < 2 * std::int64_t{min_height_mm} * count;
     if (!low || count >= grid.floor_count.at(col, row)) return false;
   }
-  return !drops(least, grid, col, row) || about.below < std::uint64_t{kSurePoints} * least.below ||
+  return !drops(least, grid, col, row) || about.below < std::uint64_t{kSureDrops} * least.below ||
          about.below <= about.floor;
 }
 

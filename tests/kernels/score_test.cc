@@ -38,8 +38,8 @@ int type_of(const Counts& c) {
 }
 
 TEST(Score, EnoughHighPointsAreAnObstacle) {
-  EXPECT_EQ(type_of({30, 2101, 0, 0}), kCellObstacle);
-  EXPECT_EQ(type_of({30, 2101, 50, 0}), kCellObstacle);  // floor around its foot does not free it
+  EXPECT_EQ(type_of({50, 3501, 0, 0}), kCellObstacle);
+  EXPECT_EQ(type_of({50, 3501, 50, 0}), kCellObstacle);  // floor around its foot does not free it
 }
 
 // The middle cell of 3 x 3 has 10 points, the least; `about` those of one of its corners, and there is floor to decide by.
@@ -56,10 +56,10 @@ int weak_type(std::uint32_t about, int corner_col, int corner_row, std::uint32_t
 }
 
 TEST(Score, AFewPointsNeedOthersBesideThem) {
-  EXPECT_EQ(weak_type(20, 0, 0, 0), kCellObstacle);
-  EXPECT_EQ(weak_type(20, 2, 2, 9), kCellObstacle);
-  EXPECT_EQ(weak_type(19, 2, 2, 0), kCellUnknown);
-  EXPECT_EQ(weak_type(19, 2, 2, 5), kCellUnoccupied);
+  EXPECT_EQ(weak_type(40, 0, 0, 0), kCellObstacle);
+  EXPECT_EQ(weak_type(40, 2, 2, 9), kCellObstacle);
+  EXPECT_EQ(weak_type(39, 2, 2, 0), kCellUnknown);
+  EXPECT_EQ(weak_type(39, 2, 2, 5), kCellUnoccupied);
   EXPECT_EQ(weak_type(500, 3, 1, 0), kCellUnknown);  // two cells away
 }
 
@@ -80,9 +80,9 @@ TEST(Score, FloorEvidenceMakesUnoccupied) {
 }
 
 TEST(Score, LowPointsOnMuchFloorAreNotAnObstacle) {
-  EXPECT_EQ(weak_type(20, 0, 0, 11), kCellUnoccupied);  // mean 70.1 mm, fewer points than floor
-  EXPECT_EQ(weak_type(20, 0, 0, 10), kCellObstacle);
-  EXPECT_EQ(type_of({30, 2101, 31, 0}), kCellObstacle);  // many enough to be sure
+  EXPECT_EQ(weak_type(40, 0, 0, 11), kCellUnoccupied);  // mean 70.1 mm, fewer points than floor
+  EXPECT_EQ(weak_type(40, 0, 0, 10), kCellObstacle);
+  EXPECT_EQ(type_of({50, 3501, 51, 0}), kCellObstacle);  // many enough to be sure
 }
 
 TEST(Score, ADropOffIsAnObstacleWhereItOutweighsTheFloor) {
