@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/nav/map_cells.h"
 #include "kernels/base/units.h"
 
 namespace lakshya {
 namespace {
 
-constexpr double kMostCells = 1e8;
 constexpr double kNanosecond = 1e-9;
 constexpr double kCutM = 0.35;  // half a person and a cell
 constexpr double kTurnsRps = 0.15;
@@ -17,15 +17,6 @@ constexpr int kGap = 2;  // cells between the cells of one cluster, at most
 constexpr int kWrap = kWatchSide - 1;
 static_assert((kWatchSide & kWrap) == 0);
 constexpr int kOccupied = 128;  // bit of free_run
-constexpr int kFraction = 32;   // bits of a length in cells
-
-std::int64_t cell_of(double cells) {
-  return static_cast<std::int64_t>(std::floor(cells));
-}
-
-std::int64_t fixed(double cells) {
-  return std::llround(cells * 0x1p32);
-}
 
 }  // namespace
 
@@ -250,13 +241,7 @@ MotionWatch::Seen MotionWatch::seen_near(double east_m, double north_m, int reac
 }
 
 Status MotionWatch::add(const NavGrid& frame, const MapPose& at) {
-  const bool fits = frame.geometry == geometry_ && frame.type.height == geometry_.rows &&
-                    frame.type.width == geometry_.cols && same_size(frame.count, frame.type) &&
-                    same_size(frame.height_sum, frame.type);
-  const double far_m = kMostCells * cell_m_;
-  if (memory_.now.empty() || !fits || !std::isfinite(at.pose.yaw) || !(std::abs(at.pose.east_m) < far_m) ||
-      !(std::abs(at.pose.north_m) < far_m))
-    return Status::bad_argument;
+  if (memory_.now.empty() || !frame_fits(frame, geometry_) || !is_finite(at, cell_m_)) return Status::bad_argument;
   if (started_ && at.time_ns <= at_.time_ns) reset();
   const std::int64_t x = cell_of(at.pose.east_m / cell_m_) - kWatchSide / 2;
   const std::int64_t y = cell_of(at.pose.north_m / cell_m_) - kWatchSide / 2;

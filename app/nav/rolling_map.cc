@@ -9,13 +9,7 @@
 namespace lakshya {
 namespace {
 
-constexpr double kMostCells = 1e8;
 constexpr double kNanosecond = 1e-9;
-
-bool finite(const MapPose& at, double cell_m) {
-  const double far = kMostCells * cell_m;
-  return std::isfinite(at.pose.yaw) && std::abs(at.pose.east_m) < far && std::abs(at.pose.north_m) < far;
-}
 
 bool usable(const RollingMapParams& p) {
   const auto in = [](double value, double most) { return value >= 0 && value <= most; };
@@ -206,10 +200,7 @@ void RollingMap::stand_here(const Sight& sight) {
 }
 
 Status RollingMap::add(const NavGrid& frame, const MapPose& at) {
-  const bool fits = frame.geometry == geometry_ && frame.type.height == geometry_.rows &&
-                    frame.type.width == geometry_.cols && same_size(frame.count, frame.type) &&
-                    same_size(frame.height_sum, frame.type);
-  if (side_ == 0 || !fits || !finite(at, cell_m_)) return Status::bad_argument;
+  if (side_ == 0 || !frame_fits(frame, geometry_) || !is_finite(at, cell_m_)) return Status::bad_argument;
   const Sight sight(geometry_, at.pose, cell_m_);
   const std::int64_t x = cell_of(sight.east) - side_ / 2;
   const std::int64_t y = cell_of(sight.north) - side_ / 2;

@@ -6,26 +6,14 @@
 #include <cstdint>
 #include <limits>
 
+#include "app/nav/map_cells.h"
 #include "app/nav/rolling_map.h"
 
 namespace lakshya {
 
-inline std::int64_t cell_of(double cells) {
-  return static_cast<std::int64_t>(std::floor(cells));
-}
-
 inline std::int64_t wrapped(std::int64_t x, std::int64_t side) {
   const std::int64_t rest = x % side;
   return rest < 0 ? rest + side : rest;
-}
-
-// A length in cells and 2^-32 of one, so that a step along a row is one addition.
-inline constexpr int kFraction = 32;
-inline std::int64_t fixed(double cells) {
-  return std::llround(cells * 0x1p32);
-}
-inline double cells_of(std::int64_t length) {
-  return static_cast<double>(length) * 0x1p-32;
 }
 
 // Whole numbers i with 0 <= at + i * step < end, one too many at either side.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/nav/map_cells.h"
 #include "app/nav/route_cells.h"
 #include "app/nav/sectors.h"
 #include "kernels/base/units.h"
@@ -15,10 +16,6 @@ constexpr int kTight = 60;         // what a cell at the margin costs more than 
 constexpr int kCorner = 60;        // share of the way's least squared distance that a straight line keeps, percent
 constexpr int kStopShare = 82;     // of the squared distance that a way keeps: nearer the vehicle stops, percent
 constexpr double kSeenBehind = 3;  // cells behind the blind zone in which its floor may begin to show
-
-std::int64_t cell_of(double metres, double cell_m) {
-  return static_cast<std::int64_t>(std::floor(metres / cell_m));
-}
 
 bool in(double value, double least, double most) {
   return value >= least && value <= most;
@@ -134,8 +131,8 @@ Status RoutePlanner::plan(const RollingMap& map, const Pose& pose, double target
                           double turning, Route& route) {
   if (!std::isfinite(target_east_m) || !std::isfinite(target_north_m)) return Status::bad_argument;
   route = {};
-  x_begin_ = cell_of(pose.east_m, cell_m_) - kRouteSide / 2;
-  y_begin_ = cell_of(pose.north_m, cell_m_) - kRouteSide / 2;
+  x_begin_ = cell_of(pose.east_m / cell_m_) - kRouteSide / 2;
+  y_begin_ = cell_of(pose.north_m / cell_m_) - kRouteSide / 2;
   const Status looked = map.window(x_begin_, y_begin_, {memory_.type.data(), kRouteSide, kRouteSide});
   if (looked != Status::ok) return looked;
   const double x = pose.east_m / cell_m_ - static_cast<double>(x_begin_);
@@ -145,7 +142,7 @@ Status RoutePlanner::plan(const RollingMap& map, const Pose& pose, double target
   measure_distances();
   price_cells(pose, x, y);
   start_ = index(static_cast<int>(x), static_cast<int>(y));
-  search(start_, -1);
+  search();
   int end = choose_end(goal_x, goal_y);
   if (reaches(end, goal_x, goal_y)) {
     looked_at_count_ = looks_ = 0;

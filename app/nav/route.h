@@ -88,7 +88,8 @@ class RoutePlanner {
 
   void measure_distances();
   void price_cells(const Pose& pose, double x, double y);
-  void search(int start, int goal);
+  void search();
+  int cell_before(int cell) const;
   void push(int cell, std::int32_t cost);
   void remove(int cell);
   int choose_end(double goal_x, double goal_y) const;

@@ -58,13 +58,13 @@ void RoutePlanner::close_again() {
 // The first closed cell of the cheapest way that goes through closed cells; -1: none.
 int RoutePlanner::place_on_the_way(bool through_obstacles, double goal_x, double goal_y) {
   open_closed_cells(through_obstacles);
-  search(start_, -1);
+  search();
   const int end = choose_end(goal_x, goal_y);
   int place = -1;
-  for (int cell = end; cell != start_ && reaches(end, goal_x, goal_y);) {
-    if ((memory_.type[static_cast<std::size_t>(cell)] & kRouteShut) != 0) place = cell;
-    const RouteStep& step = kRouteSteps[memory_.from[static_cast<std::size_t>(cell)]];
-    cell = index(cell % kRouteSide - step.x, cell / kRouteSide - step.y);
+  if (reaches(end, goal_x, goal_y)) {
+    for (int cell = end; cell != start_; cell = cell_before(cell)) {
+      if ((memory_.type[static_cast<std::size_t>(cell)] & kRouteShut) != 0) place = cell;
+    }
   }
   close_again();
   return place;
@@ -79,7 +79,7 @@ int RoutePlanner::doubtful_place(double goal_x, double goal_y) {
     place = place_on_the_way(false, goal_x, goal_y);
   }
   if (place < 0) place = place_on_the_way(true, goal_x, goal_y);
-  search(start_, -1);
+  search();
   return place;
 }
 

@@ -35,11 +35,11 @@ void RoutePlanner::remove(int cell) {
   if (after >= 0) memory_.previous[static_cast<std::size_t>(after)] = before;
 }
 
-// Dijkstra's, with a bucket for each cost (Dial 1969); ends when `goal` (-1: none) is settled.
-void RoutePlanner::search(int start, int goal) {
+// Dijkstra's, with a bucket for each cost (Dial 1969), from the vehicle's cell to all.
+void RoutePlanner::search() {
   std::ranges::fill(memory_.cost, kRouteFar);
   bucket_.fill(-1);
-  push(start, 0);
+  push(start_, 0);
   int waiting = 1;
   for (std::int32_t cost = 0; waiting > 0; ++cost) {
     std::int32_t& head = bucket_[static_cast<std::size_t>(cost % kBuckets)];
@@ -47,7 +47,6 @@ void RoutePlanner::search(int start, int goal) {
       const int cell = head;
       remove(cell);
       --waiting;
-      if (cell == goal) return;
       const int x = cell % kRouteSide;
       const int y = cell / kRouteSide;
       for (std::size_t k = 0; k < kRouteSteps.size(); ++k) {
@@ -116,19 +115,21 @@ bool RoutePlanner::reaches(int end, double goal_x, double goal_y) const {
   return std::hypot(x + 0.5 - goal_x, y + 0.5 - goal_y) <= kRouteNear;
 }
 
+// On the way from the vehicle to a cell that the search has reached.
+int RoutePlanner::cell_before(int cell) const {
+  const RouteStep& step = kRouteSteps[memory_.from[static_cast<std::size_t>(cell)]];
+  return index(cell % kRouteSide - step.x, cell / kRouteSide - step.y);
+}
+
 // The points of the way, nearest first; a way of more than kRouteMostPoints cells is kept from its begin.
 void RoutePlanner::follow_back(int end) {
   int length = 0;
-  for (int cell = end; cell != start_; ++length) {
-    const RouteStep& step = kRouteSteps[memory_.from[static_cast<std::size_t>(cell)]];
-    cell = index(cell % kRouteSide - step.x, cell / kRouteSide - step.y);
-  }
+  for (int cell = end; cell != start_; cell = cell_before(cell))
+    ++length;
   count_ = std::min(length, kRouteMostPoints);
-  for (int cell = end, k = length - 1; cell != start_; --k) {
+  for (int cell = end, k = length - 1; cell != start_; cell = cell_before(cell), --k) {
     if (k < kRouteMostPoints)
       points_[static_cast<std::size_t>(k)] = {x_begin_ + cell % kRouteSide, y_begin_ + cell / kRouteSide};
-    const RouteStep& step = kRouteSteps[memory_.from[static_cast<std::size_t>(cell)]];
-    cell = index(cell % kRouteSide - step.x, cell / kRouteSide - step.y);
   }
 }
 

@@ -58,4 +58,13 @@ inline Outcome run_command(const std::vector<std::string>& words) {
   return outcome;
 }
 
+// The host command with words that have no spaces in them, as one types them.
+inline Outcome run_lakshya(const std::string& arguments) {
+  std::vector<std::string> words{lakshya_binary()};
+  std::istringstream in(arguments);
+  for (std::string word; in >> word;)
+    words.push_back(word);
+  return run_command(words);
+}
+
 }  // namespace lakshya

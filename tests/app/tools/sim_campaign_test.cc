@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
-#include <vector>
 
 #include "tests/support/run_command.h"
 
@@ -21,11 +20,7 @@ struct Campaign {
 };
 
 Campaign drive(const std::string& arguments) {
-  std::vector<std::string> words{lakshya_binary(), "sim", "--json", "--jobs", "2"};
-  std::istringstream in(arguments);
-  for (std::string word; in >> word;)
-    words.push_back(word);
-  const Outcome r = run_command(words);
+  const Outcome r = run_lakshya("sim --json --jobs 2 " + arguments);
   Campaign c;
   c.lines = r.out;
   std::istringstream lines(r.out);

@@ -27,14 +27,6 @@ std::vector<Json> lines_of(const std::string& text) {
   return lines;
 }
 
-Outcome run_lakshya(const std::string& arguments) {
-  std::vector<std::string> words{lakshya_binary()};
-  std::istringstream in(arguments);
-  for (std::string word; in >> word;)
-    words.push_back(word);
-  return run_command(words);
-}
-
 // Without the times of this machine.
 Json without_times(Json line) {
   line.erase("frame_ms_p50");
