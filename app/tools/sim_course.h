@@ -85,16 +85,16 @@ class Labels {
 // Floor and patches; gives the legend of those that are in the picture.
 std::vector<LegendItem> draw_ground(Canvas& map, const CourseView& view, const sim::World& world);
 
-// Ground and things. `seconds`: when the drive ended, for what walks. Gives what was drawn, for the legend.
+// Ground and things; who walks is where he was at the end. Gives what was drawn, for the legend.
 struct DrawnWorld {
   std::set<Look> looks;
   std::vector<LegendItem> ground;
   bool walks = false;
 };
-DrawnWorld draw_world(Canvas& map, const CourseView& view, const sim::World& world, double seconds);
+DrawnWorld draw_world(Canvas& map, const CourseView& view, const sim::World& world, const sim::WalkTimes& walks);
 
-// What a thing covers at that time, px; empty where it has no shape.
-Box box_of(const sim::Thing& thing, double seconds, const CourseView& view);
+// What a thing covers, px; empty where it has no shape. walked_s: his own time, of somebody who walks.
+Box box_of(const sim::Thing& thing, double walked_s, const CourseView& view);
 
 struct CourseLegend {
   std::vector<LegendItem> items;

@@ -133,7 +133,7 @@ void draw_footprint(Canvas& map, const std::vector<Triangle>& triangles, const S
     hatch(map, t, style.rim);
 }
 
-void draw_walk(Canvas& map, const CourseView& view, const Thing& thing, double seconds) {
+void draw_walk(Canvas& map, const CourseView& view, const Thing& thing, double walked_s) {
   std::vector<Point> way;
   for (const Eigen::Vector2d& p : thing.walk->points)
     way.push_back(view.at(p.x(), p.y()));
@@ -141,7 +141,7 @@ void draw_walk(Canvas& map, const CourseView& view, const Thing& thing, double s
   const Place begin = place_on_walk(*thing.walk, 0);
   const double ring = std::max(6.0, 0.25 * view.scale);
   map.line(arc_points(view.at(begin.x, begin.y), ring, -3.15, 3.15), kWalkColor, 2);
-  const Place end = place_on_walk(*thing.walk, seconds);
+  const Place end = place_on_walk(*thing.walk, walked_s);
   draw_footprint(map, footprint(thing, end, 0, view), style_of(Look::person));
 }
 
@@ -182,9 +182,9 @@ LegendItem legend_of(Look look) {
           }};
 }
 
-Box box_of(const Thing& thing, double seconds, const CourseView& view) {
+Box box_of(const Thing& thing, double walked_s, const CourseView& view) {
   if (thing.mesh.vertices.empty()) return {};
-  const Place place = thing.walk ? place_on_walk(*thing.walk, seconds) : Place{};
+  const Place place = thing.walk ? place_on_walk(*thing.walk, walked_s) : Place{};
   const double c = std::cos(place.yaw);
   const double s = std::sin(place.yaw);
   const auto turned = [&](const Eigen::Vector3f& v) {
@@ -199,7 +199,7 @@ Box box_of(const Thing& thing, double seconds, const CourseView& view) {
   return view.box(e.x0, e.y0, e.x1, e.y1);
 }
 
-DrawnWorld draw_world(Canvas& map, const CourseView& view, const sim::World& world, double seconds) {
+DrawnWorld draw_world(Canvas& map, const CourseView& view, const sim::World& world, const sim::WalkTimes& walks) {
   DrawnWorld drawn;
   const sim::Ground& ground = world.ground;
   drawn.ground = draw_ground(map, view, world);
@@ -209,12 +209,13 @@ DrawnWorld draw_world(Canvas& map, const CourseView& view, const sim::World& wor
   }
   std::ranges::stable_sort(things, {}, [](const auto& item) { return item.first; });
   for (const auto& [look, thing] : things) {
-    const Box box = box_of(*thing, seconds, view);
+    const double walked_s = walks.of(static_cast<std::size_t>(thing - world.things.data()));
+    const Box box = box_of(*thing, walked_s, view);
     if (!thing->walk && !overlap(box, {0, 0, map.width(), map.height()})) continue;
     drawn.looks.insert(look);
     if (thing->walk) {
       drawn.walks = true;
-      draw_walk(map, view, *thing, seconds);
+      draw_walk(map, view, *thing, walked_s);
       continue;
     }
     const Eigen::Vector3f& corner = thing->mesh.vertices.front();

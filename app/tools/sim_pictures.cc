@@ -66,9 +66,10 @@ struct Named {
 std::vector<Named> things_to_name(const CourseView& view, const sim::World& world, const RunResult& r,
                                   Labels& labels) {
   std::vector<Named> named;
-  for (const sim::Thing& thing : world.things) {
+  for (std::size_t i = 0; i < world.things.size(); ++i) {
+    const sim::Thing& thing = world.things[i];
     if (is_left_out(thing, world.ground)) continue;
-    const Box box = box_of(thing, r.time_s, view);
+    const Box box = box_of(thing, r.walks.of(i), view);
     labels.rather_free(box);
     if (look_of(thing, world.ground) == Look::wall) continue;
     if (thing.name != r.hit)
@@ -156,7 +157,7 @@ Image<Rgb8> course_picture(const sim::World& world, const RunResult& result, dou
   const CourseView view = course_view(world, result, kWidth - 2 * kMargin, kMostMapHeight);
   const Box box{kMargin, kCourseTop, view.width(), view.height()};
   Canvas map(box.width, box.height, kPaper);
-  const DrawnWorld drawn = draw_world(map, view, world, result.time_s);
+  const DrawnWorld drawn = draw_world(map, view, world, result.walks);
   Labels labels({0, 0, box.width, box.height});
   draw_north(map, view, labels);
   const std::vector<Named> names = things_to_name(view, world, result, labels);

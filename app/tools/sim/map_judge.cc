@@ -29,9 +29,9 @@ void MapJudge::on_start(Simulation& simulation, const Machinery& /*machinery*/) 
 void MapJudge::on_frame(const FrameResult& frame, const PlanNote& /*plan*/, const Shot& shot) {
   ++frames_;
   collect_cells(frame.grid, shot);
-  judge_cells(shot.time_s);
+  judge_cells(shot.walks);
   look(shot);
-  judge_things(shot.time_s);
+  judge_things(shot.walks);
 }
 
 void MapJudge::collect_cells(const NavGrid& grid, const Shot& shot) {
@@ -56,19 +56,19 @@ void MapJudge::collect_cells(const NavGrid& grid, const Shot& shot) {
   }
 }
 
-void MapJudge::judge_cells(double time_s) {
+void MapJudge::judge_cells(const WalkTimes& when) {
   all_ += cells_.size();
   for (const Cell& cell : cells_) {
-    if (is_true(cell, time_s)) continue;
+    if (is_true(cell, when)) continue;
     ++false_;
     ++false_on_[what_is_at(cell)];
   }
 }
 
-bool MapJudge::is_true(const Cell& cell, double time_s) const {
+bool MapJudge::is_true(const Cell& cell, const WalkTimes& when) const {
   const double floor = std::min(cell.z, 0.0);  // beside a ramp or a platform the lower ground counts, too
   const Nearest nearest =
-      truth_.nearest(cell.x, cell.y, floor + rules_.lowest_m, cell.z + config_->prune.clearance_m, time_s, true);
+      truth_.nearest(cell.x, cell.y, floor + rules_.lowest_m, cell.z + config_->prune.clearance_m, when, true);
   if (nearest.distance_m <= cell.tolerance_m) return true;
   if (truth_.dropoff_at(cell.x, cell.y)) return true;
   constexpr int kDirections = 16;
@@ -89,11 +89,11 @@ std::string MapJudge::what_is_at(const Cell& cell) const {
   return patch == nullptr ? "floor" : patch->kind;
 }
 
-double MapJudge::distance(const Thing& thing, const Cell& cell, double time_s) const {
+double MapJudge::distance(const Thing& thing, const Cell& cell, double walked_s) const {
   double x = cell.x;
   double y = cell.y;
   if (thing.walk) {
-    const Place at = place_on_walk(*thing.walk, time_s);
+    const Place at = place_on_walk(*thing.walk, walked_s);
     const double c = std::cos(at.yaw);
     const double s = std::sin(at.yaw);
     x = c * (cell.x - at.x) + s * (cell.y - at.y);
@@ -114,7 +114,7 @@ double MapJudge::distance(const Thing& thing, const Cell& cell, double time_s) c
 // How much of each thing the camera sees between floor and clearance.
 void MapJudge::look(const Shot& shot) {
   const RectifiedGeometry& camera = simulation_->camera();
-  simulation_->renderer().set_time(shot.time_s);
+  simulation_->renderer().set_time(shot.walks);
   simulation_->renderer().depth(*rays_, shot.rectified, false, depth_.view(), label_.view());
   std::ranges::fill(pixels_, 0);
   std::ranges::fill(nearest_, std::numeric_limits<double>::infinity());
@@ -133,7 +133,7 @@ void MapJudge::look(const Shot& shot) {
   }
 }
 
-void MapJudge::judge_things(double time_s) {
+void MapJudge::judge_things(const WalkTimes& when) {
   const auto least = static_cast<int>(rules_.min_pixels * label_.width() * label_.height());
   for (std::size_t i = 0; i < world_->things.size(); ++i) {
     const Thing& thing = world_->things[i];
@@ -143,7 +143,7 @@ void MapJudge::judge_things(double time_s) {
     Count& count = recall_[thing.kind][bin];
     ++count.seen;
     const bool found = std::ranges::any_of(
-        cells_, [&](const Cell& cell) { return distance(thing, cell, time_s) <= cell.tolerance_m; });
+        cells_, [&](const Cell& cell) { return distance(thing, cell, when.of(i)) <= cell.tolerance_m; });
     if (found) ++count.found;
   }
 }

@@ -50,12 +50,12 @@ class MapJudge final : public Onlooker {
   };
 
   void collect_cells(const NavGrid& grid, const Shot& shot);
-  void judge_cells(double time_s);
+  void judge_cells(const WalkTimes& when);
   void look(const Shot& shot);
-  void judge_things(double time_s);
-  bool is_true(const Cell& cell, double time_s) const;
+  void judge_things(const WalkTimes& when);
+  bool is_true(const Cell& cell, const WalkTimes& when) const;
   std::string what_is_at(const Cell& cell) const;
-  double distance(const Thing& thing, const Cell& cell, double time_s) const;
+  double distance(const Thing& thing, const Cell& cell, double walked_s) const;
 
   const World* world_;
   const VehicleConfig* config_;

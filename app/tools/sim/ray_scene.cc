@@ -116,6 +116,7 @@ RayScene::RayScene(const World& world) {
     Triangles own;
     Walker walker;
     walker.thing = &thing;
+    walker.index = i;
     walker.first = static_cast<std::uint32_t>(facets_.size());
     first_facet_.push_back(walker.first);
     add_mesh(thing.mesh, static_cast<std::int16_t>(i), own);
@@ -192,9 +193,9 @@ void RayScene::put_walker(Walker& walker, const Place& place) {
   rtcCommitGeometry(walker.geometry.get());
 }
 
-void RayScene::set_time(double time_s) {
+void RayScene::set_time(const WalkTimes& when) {
   for (Walker& walker : walkers_)
-    put_walker(walker, place_on_walk(*walker.thing->walk, time_s));
+    put_walker(walker, place_on_walk(*walker.thing->walk, when.of(walker.index)));
   rtcCommitScene(walking_.get());
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/tools/sim/textures.h"
+#include "app/tools/sim/walk.h"
 #include "app/tools/sim/world.h"
 
 namespace lakshya::sim {
@@ -49,7 +50,7 @@ class RayScene {
  public:
   explicit RayScene(const World& world);
 
-  void set_time(double time_s);
+  void set_time(const WalkTimes& when);
 
   RTCScene still() const { return still_.get(); }
   RTCScene walking() const { return walkers_.empty() ? nullptr : walking_.get(); }
@@ -77,6 +78,7 @@ class RayScene {
   };
   struct Walker {
     const Thing* thing = nullptr;
+    std::size_t index = 0;  // in World::things
     Owned<RTCGeometry> geometry;
     std::uint32_t first = 0;              // facet
     std::vector<Facet> facets;            // about his own place

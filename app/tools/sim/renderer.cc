@@ -32,8 +32,8 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-void Renderer::set_time(double time_s) {
-  tracer_->scene.set_time(time_s);
+void Renderer::set_time(const WalkTimes& when) {
+  tracer_->scene.set_time(when);
 }
 
 void Renderer::radiance(const RayTable& rays, const CameraPose& pose, ImageView<float> out) const {

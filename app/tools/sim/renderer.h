@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "app/tools/sim/ray_table.h"
+#include "app/tools/sim/walk.h"
 #include "app/tools/sim/world.h"
 #include "kernels/base/image_view.h"
 
@@ -24,8 +25,8 @@ class Renderer {
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  // Puts all who walk where they are at `time_s`. Not while another thread looks; all below may be called by many.
-  void set_time(double time_s);
+  // Puts all who walk where they are then. Not while another thread looks; all below may be called by many.
+  void set_time(const WalkTimes& when);
 
   // Linear radiance, 0.5 where an irradiance of 1 falls on albedo 0.5. `out` has the table's size. Glass is not seen, but for a
   // slight tint.

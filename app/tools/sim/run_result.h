@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "app/tools/sim/walk.h"
+
 namespace lakshya::sim {
 
 enum class Ending : std::uint8_t { reached, collision, dropoff, stuck, timeout };
@@ -46,6 +48,7 @@ struct RunResult {
   double frame_ms_p99 = 0;
   double goal_distance_m = 0;  // true, at the end
   std::vector<TracePoint> trace;
+  WalkTimes walks;  // at the end; not part of the JSON
 
   // Held against the vehicle.
   bool is_collision() const { return ending == Ending::collision && excuse.empty(); }

@@ -32,13 +32,13 @@ class PeopleInView {
       looks.assign(static_cast<std::size_t>(std::llround(memory_s / kLookStep)), false);
   }
 
-  void look(Simulation& simulation, const RectifiedGeometry& camera, double time_s) {
+  void look(Simulation& simulation, const RectifiedGeometry& camera, const WalkTimes& when) {
     const CameraPose& eye = simulation.shot().rectified;
     ++looks_;
     for (std::size_t i = 0; i < seen_.size(); ++i) {
       const Thing& thing = world_->things[i];
       if (!thing.walk) continue;
-      const Place place = place_on_walk(*thing.walk, time_s);
+      const Place place = place_on_walk(*thing.walk, when.of(i));
       seen_[i][looks_ % seen_[i].size()] = sees(simulation.renderer(), camera, eye, {place.x, place.y, 0.9});
     }
   }
@@ -94,16 +94,17 @@ class Drive final : public FrameSink {
   void after_turn() {
     const double time_s = simulation_->seconds(clock_->now());
     const VehicleState& vehicle = simulation_->vehicle().at(clock_->now());
+    walks_ = simulation_->walks(clock_->now());
     listen(vehicle);
     if (over_) return;
     if (time_s >= next_trace_) {
       result_.trace.push_back({time_s, vehicle.x, vehicle.y, vehicle.yaw, vehicle.speed_mps, blocked_});
       next_trace_ += kTraceStep;
-      people_.look(*simulation_, simulation_->camera(), time_s);
+      people_.look(*simulation_, simulation_->camera(), walks_);
     }
-    touch(vehicle, time_s);
+    touch(vehicle);
     watch_progress(vehicle, time_s);
-    watch_standing(vehicle, time_s);
+    watch_standing(vehicle);
     if (!over_ && arrived_) {
       end(goal_distance(vehicle) <= rules_.goal_tolerance_m ? Ending::reached : Ending::stuck);
     }
@@ -135,9 +136,9 @@ class Drive final : public FrameSink {
     if (onlooker_ != nullptr) onlooker_->on_turn(x.status.reading(), vehicle);
   }
 
-  void touch(const VehicleState& v, double time_s) {
+  void touch(const VehicleState& v) {
     const Nearest nearest =
-        truth_.nearest(v.x, v.y, v.z + rules_.body_bottom_m, v.z + config_->prune.clearance_m, time_s, true);
+        truth_.nearest(v.x, v.y, v.z + rules_.body_bottom_m, v.z + config_->prune.clearance_m, walks_, true);
     const double radius = config_->vehicle.radius_m;
     const double clearance = nearest.distance_m - radius;
     const bool stands = std::abs(v.speed_mps) < kStands && std::abs(v.turn_rate_rps) < kStands;
@@ -182,7 +183,7 @@ class Drive final : public FrameSink {
     }
   }
 
-  void watch_standing(const VehicleState& v, double time_s) {
+  void watch_standing(const VehicleState& v) {
     const bool stands = std::abs(v.speed_mps) < kStands && std::abs(v.turn_rate_rps) < kStands;
     const bool has_driven = v.path_m > 0.2;
     if (!stands || !has_driven || arrived_) {
@@ -191,10 +192,10 @@ class Drive final : public FrameSink {
     }
     stood_s_ += kTurnSeconds;
     if (stood_s_ < rules_.false_stop_s || stood_s_ - kTurnSeconds >= rules_.false_stop_s) return;
-    if (is_free_ahead(v, time_s)) ++result_.false_stops;
+    if (is_free_ahead(v)) ++result_.false_stops;
   }
 
-  bool is_free_ahead(const VehicleState& v, double time_s) const {
+  bool is_free_ahead(const VehicleState& v) const {
     constexpr double kStep = 0.05;
     for (double way = 0; way <= rules_.false_stop_clear_m; way += kStep) {
       const double x = v.x + way * std::cos(v.yaw);
@@ -202,7 +203,7 @@ class Drive final : public FrameSink {
       const double z = ground_height(world_->ground, x, y);
       if (truth_.dropoff_at(x, y)) return false;
       const Nearest nearest =
-          truth_.nearest(x, y, z + rules_.body_bottom_m, z + config_->prune.clearance_m, time_s, true);
+          truth_.nearest(x, y, z + rules_.body_bottom_m, z + config_->prune.clearance_m, walks_, true);
       if (nearest.distance_m < config_->vehicle.radius_m) return false;
     }
     return true;
@@ -225,6 +226,7 @@ class Drive final : public FrameSink {
     result_.mean_speed_mps = time_s > 0 ? v.path_m / time_s : 0;
     result_.frames = m_->perception().frames();
     result_.goal_distance_m = goal_distance(v);
+    result_.walks = walks_;
     result_.trace.push_back({time_s, v.x, v.y, v.yaw, v.speed_mps, blocked_});
   }
 
@@ -237,6 +239,7 @@ class Drive final : public FrameSink {
   Onlooker* onlooker_;
   TrueGeometry truth_;
   PeopleInView people_;
+  WalkTimes walks_;
   RunResult result_;
   std::vector<Nanoseconds> took_;
   bool arrived_ = false;

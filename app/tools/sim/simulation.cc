@@ -1,5 +1,6 @@
 #include "app/tools/sim/simulation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -9,6 +10,8 @@
 
 namespace lakshya::sim {
 namespace {
+
+constexpr double kSensorColumns = 640;  // for which ImageSensorSettings::noise_grey is given
 
 CameraConfig with_error(CameraConfig mount, double deviation_deg, std::uint64_t seed) {
   Random random(seed ^ 0xCA'0000'0000ULL);
@@ -26,6 +29,8 @@ ImageSensorSettings sensor_settings(const SimulationSettings& settings, const St
   ImageSensorSettings sensor = settings.sensor;
   sensor.focal_px = calibration.left.fx;
   sensor.seed = settings.seed;
+  // A smaller picture of the same sensor is binned: the mean of n pixels has 1/sqrt(n) of their noise.
+  sensor.noise_grey *= std::min(1.0, settings.rig.width / kSensorColumns);
   return sensor;
 }
 
@@ -53,6 +58,7 @@ Simulation::Simulation(const SimulationSettings& settings, const World& world, c
       camera_(rectified_geometry(calibration_, settings.rig.width, settings.rig.height)),
       true_mount_(with_error(config.camera, settings.mount_error_deg, settings.seed)),
       vehicle_(vehicle_settings(settings.vehicle, config), world, settings.seed, clock.now()),
+      walkers_(world),
       renderer_(world),
       left_rays_(calibration_.left, settings.rig.width, settings.rig.height),
       right_rays_(calibration_.right, settings.rig.width, settings.rig.height),
@@ -73,10 +79,17 @@ VehicleDevices Simulation::devices() {
   return devices;
 }
 
+WalkTimes Simulation::walks(Nanoseconds time) {
+  const VehicleState& vehicle = vehicle_.at(time);
+  walkers_.step(seconds(time), vehicle.x, vehicle.y, config_.vehicle.radius_m);
+  return walkers_.times();
+}
+
 Status Simulation::produce(Nanoseconds time, std::uint64_t number, ImageView<std::uint8_t> left,
                            ImageView<std::uint8_t> right) {
   shot_.vehicle = vehicle_.at(time);
   shot_.time_s = seconds(time);
+  shot_.walks = walks(time);
   shot_.rectified = rectified_camera(shot_.vehicle, true_mount_);
   if (!settings_.draws) {
     fill_with_noise(left, 2 * number);
@@ -84,7 +97,7 @@ Status Simulation::produce(Nanoseconds time, std::uint64_t number, ImageView<std
     return Status::ok;
   }
   const EyePoses poses = eyes(shot_.rectified, calibration_, rectification_.R1);
-  renderer_.set_time(shot_.time_s);
+  renderer_.set_time(shot_.walks);
   renderer_.radiance(left_rays_, poses.left, left_.view());
   renderer_.radiance(right_rays_, poses.right, right_.view());
   const auto sun = [&](const CameraPose& pose) {

@@ -47,6 +47,8 @@ class Simulation final : public FrameProducer {
   Vehicle& vehicle() { return vehicle_; }
   Renderer& renderer() { return renderer_; }
   const Shot& shot() const { return shot_; }
+  // All who walk, on to `time` and where the vehicle is then; in order of time.
+  WalkTimes walks(Nanoseconds time);
   double seconds(Nanoseconds time) const {
     return static_cast<double>(time - start_) / static_cast<double>(kSecond);
   }
@@ -62,6 +64,7 @@ class Simulation final : public FrameProducer {
   RectifiedGeometry camera_;
   CameraConfig true_mount_;
   Vehicle vehicle_;
+  Walkers walkers_;
   Renderer renderer_;
   RayTable left_rays_;
   RayTable right_rays_;

@@ -39,7 +39,7 @@ TrueDepth::TrueDepth(Renderer& renderer, const RectifiedGeometry& camera, double
 
 Status TrueDepth::match(ImageView<const std::uint8_t> /*left*/, ImageView<const std::uint8_t> /*right*/,
                         ImageView<const std::int16_t>& disparity) {
-  renderer_->set_time(shot_->time_s);
+  renderer_->set_time(shot_->walks);
   renderer_->depth(rays_, shot_->rectified, true, depth_.view(), thing_.view());
   const double scale = camera_.focal_px * camera_.baseline_m;
   for (int v = 0; v < camera_.height; ++v) {
@@ -64,7 +64,7 @@ Status LevelLaser::match(ImageView<const std::uint8_t> /*left*/, ImageView<const
 }
 
 Status LevelLaser::see(const NavGrid& grid) {
-  renderer_->set_time(shot_->time_s);
+  renderer_->set_time(shot_->walks);
   fill(grid.type, kCellUnknown);
   const int beams = static_cast<int>(kLaserSide / kLaserStep);
   for (int i = -beams; i <= beams; ++i)

@@ -13,6 +13,7 @@ struct Shot {
   VehicleState vehicle;
   CameraPose rectified;
   double time_s = 0;
+  WalkTimes walks;
 };
 
 // The rays of a rectified left camera.

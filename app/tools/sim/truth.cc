@@ -205,14 +205,15 @@ void TrueGeometry::search_ground(const Query& query, Nearest& best) const {
   }
 }
 
-Nearest TrueGeometry::nearest(double x, double y, double z_low, double z_high, double time_s, bool glass) const {
+Nearest TrueGeometry::nearest(double x, double y, double z_low, double z_high, const WalkTimes& when,
+                              bool glass) const {
   Nearest best;
   const Query query{x, y, z_low, z_high, glass};
   search_ground(query, best);
   search_grid(query, best);
   for (const Walker& walker : walkers_) {
     if (walker.glass && !glass) continue;
-    const Place place = place_on_walk(walker.walk, time_s);
+    const Place place = place_on_walk(walker.walk, when.of(static_cast<std::size_t>(walker.thing)));
     const double dx = x - place.x;
     const double dy = y - place.y;
     if (std::hypot(dx, dy) - walker.reach_m >= best.distance_m) continue;

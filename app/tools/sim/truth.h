@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/tools/sim/ground_shapes.h"
+#include "app/tools/sim/walk.h"
 #include "app/tools/sim/world.h"
 
 namespace lakshya::sim {
@@ -28,10 +29,10 @@ class TrueGeometry {
  public:
   explicit TrueGeometry(const World& world);
 
-  // The nearest of: things with Expect::obstacle, with `glass` those with Expect::glass too, those that walk where they are at
-  // `time_s`; kerbs, and the sides of ramps and platforms (at any height). z_low..z_high in the world frame: the caller adds the
+  // The nearest of: things with Expect::obstacle, with `glass` those with Expect::glass too, those that walk where they are
+  // then; kerbs, and the sides of ramps and platforms (at any height). z_low..z_high in the world frame: the caller adds the
   // ground's height under the vehicle.
-  Nearest nearest(double x, double y, double z_low, double z_high, double time_s, bool glass) const;
+  Nearest nearest(double x, double y, double z_low, double z_high, const WalkTimes& when, bool glass) const;
 
   // A wheel must not be here.
   bool dropoff_at(double x, double y) const;

@@ -28,7 +28,8 @@ enum class Expect : std::uint8_t {
 struct Walk {
   std::vector<Eigen::Vector2d> points;  // at least two; back from the last one to the first the same way
   double speed_mps = 1;
-  double start_m = 0;  // how far along the way (there and back) he is at time 0
+  double start_m = 0;    // how far along the way (there and back) he is at time 0
+  double halts_m = 0.6;  // he stands still with a vehicle nearer than this before him (walk.h); 0: he walks into it
 };
 
 struct Thing {

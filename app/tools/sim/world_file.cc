@@ -85,13 +85,14 @@ void read_patch(const YamlValue& value, Ground& ground) {
 }
 
 Walk read_walk(const YamlValue& value) {
-  const YamlMap map(value, {"points", "speed_mps", "start_m"});
+  const YamlMap map(value, {"points", "speed_mps", "start_m", "halts_m"});
   Walk walk;
   for (const YamlValue& point : map.at("points").list(kMostPoints))
     walk.points.push_back(point.point());
   if (walk.points.size() < 2) map.at("points").refuse("fewer than two points (say from where to where)");
   walk.speed_mps = map.number("speed_mps", 1, 0, 10);
   walk.start_m = map.number("start_m", 0, 0, 1000);
+  walk.halts_m = map.number("halts_m", walk.halts_m, 0, 10);
   return walk;
 }
 
