@@ -44,9 +44,13 @@ RollingMapMemory take_rolling_map(const VehicleConfig& config, Arena& arena) {
 }
 
 MotionWatchParams motion_watch_params(const VehicleConfig& config, const RectifiedGeometry& camera) {
-  const UpperEdge edge = rolling_map_params(config, camera).camera;
-  return {edge.forward_m, edge.left_m, edge.yaw, std::atan(camera.width / (2 * camera.focal_px)),
-          blind_zone_m(config, camera)};
+  const RollingMapParams map = rolling_map_params(config, camera);
+  return {.forward_m = map.camera.forward_m,
+          .left_m = map.camera.left_m,
+          .yaw = map.camera.yaw,
+          .view = std::atan(camera.width / (2 * camera.focal_px)),
+          .blind_m = blind_zone_m(config, camera),
+          .depth_sigma = map.depth_sigma};
 }
 
 bool routes(const VehicleConfig& config) {

@@ -16,6 +16,7 @@ constexpr double kTurnsRps = 0.15;
 constexpr int kGap = 2;  // cells between the cells of one cluster, at most
 constexpr int kWrap = kWatchSide - 1;
 static_assert((kWatchSide & kWrap) == 0);
+constexpr double kMostError = 2;  // cells
 constexpr int kOccupied = 128;  // bit of free_run
 
 }  // namespace
@@ -32,7 +33,8 @@ Status MotionWatch::configure(const MotionWatchParams& params, const GridGeometr
                               const MotionWatchMemory& memory) {
   if (geometry.rows <= 0 || geometry.cols <= 0 || geometry.cell_mm <= 0) return Status::bad_argument;
   if (!std::isfinite(params.forward_m) || !std::isfinite(params.left_m) || !std::isfinite(params.yaw) ||
-      !(params.view > 0 && params.view <= 1.5) || !(params.blind_m >= 0 && params.blind_m <= 100))
+      !(params.view > 0 && params.view <= 1.5) || !(params.blind_m >= 0 && params.blind_m <= 100) ||
+      !(params.depth_sigma >= 0 && params.depth_sigma <= 100))
     return Status::bad_argument;
   params_ = params;
   if (memory.free_at.size() != kWatchCells || memory.now.size() != kWatchCells ||
@@ -163,8 +165,11 @@ void MotionWatch::find_clusters(const NavGrid& frame, const Pose& pose) {
   if (fresh_count_ > kMostFresh) return;
   const std::span<const std::int32_t> all(fresh_.data(), static_cast<std::size_t>(fresh_count_));
   const auto beside_old = [&](std::int64_t x, std::int64_t y) {
-    for (int dv = -1; dv <= 1; ++dv) {
-      for (int du = -1; du <= 1; ++du) {
+    const double error_m =
+        depth_error_m((static_cast<double>(x) + 0.5) * cell_m_, (static_cast<double>(y) + 0.5) * cell_m_);
+    const int reach = 1 + static_cast<int>(std::min(error_m / cell_m_, kMostError));
+    for (int dv = -reach; dv <= reach; ++dv) {
+      for (int du = -reach; du <= reach; ++du) {
         if (holds(x + du, y + dv) && memory_.now[index(x + du, y + dv)] == old) return true;
       }
     }
@@ -210,6 +215,13 @@ void MotionWatch::find_clusters(const NavGrid& frame, const Pose& pose) {
                                    .fresh = sums.fresh >= kLeastCells,
                                    .cut = is_cut(pose, east * cell_m_, north * cell_m_)};
   }
+}
+
+// One standard deviation of where something is seen there.
+double MotionWatch::depth_error_m(double east_m, double north_m) const {
+  const double east = east_m - at_.pose.east_m;
+  const double north = north_m - at_.pose.north_m;
+  return params_.depth_sigma * (east * east + north * north);
 }
 
 // Where the border of the view is so near that a part of a person may lie beyond, or where no floor is seen and so nothing fresh: what

@@ -37,6 +37,7 @@ struct MotionWatchParams {
   double yaw = 0;        // positive to the left
   double view = 0.6;     // half of its field of view, in (0, 1.5]
   double blind_m = 1.0;  // nearer than this it sees no floor
+  double depth_sigma = 0;  // standard deviation of a depth at 1 m: RollingMapParams
 };
 
 // The caller's, kWatchCells each.
@@ -51,6 +52,7 @@ class MotionWatch {
   static constexpr std::int64_t kTickNs = 10'000'000;
   static constexpr std::int64_t kFreshNs = 1'600'000'000;
   static constexpr std::int64_t kRememberedNs = 4'500'000'000;
+  static constexpr std::int64_t kRememberedPerHitNs = 250'000'000;  // at most for each time that it was seen
   static constexpr double kReachM = 6;               // farther obstacle cells are not looked at
   static constexpr double kLeastMeanHeightM = 0.15;  // of a cluster
   static constexpr double kMostExtentM = 1.0;
@@ -61,8 +63,10 @@ class MotionWatch {
   static constexpr int kMostClusters = 16;
   static constexpr int kConfirmHits = 4;
   static constexpr double kConfirmM = 0.35;
+  static constexpr double kConfirmSigmas = 3;  // ... and so many standard deviations of the depth there
   static constexpr double kConfirmMps = 0.2;
   static constexpr double kMostMps = 2.5;
+  static constexpr double kAlongCosine = 0.8;  // of the largest angle between the way gone and the velocity
   static constexpr double kStraight = 0.7;  // least share of the way gone that is left between its ends
 
   // geometry: of the frames. bad_argument: no such grid or camera; size_mismatch: the memory. Forgets everything. Keeps the memory.
@@ -115,6 +119,7 @@ class MotionWatch {
   Seen seen_near(double east_m, double north_m, int reach) const;
   void predict(double dt_s);
   void associate(std::int64_t time_ns, double dt_s);
+  double depth_error_m(double east_m, double north_m) const;
   bool is_cut(const Pose& pose, double east_m, double north_m) const;
   static Track begun(const Cluster& cluster, std::int64_t time_ns);
   void measure(Track& track, const Cluster& cluster, std::int64_t time_ns, double dt_s);

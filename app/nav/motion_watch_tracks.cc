@@ -117,8 +117,10 @@ void MotionWatch::begin_tracks(std::int64_t time_ns) {
 bool MotionWatch::confirmed(const Track& t) const {
   const double gone_m = std::hypot(t.east_m - t.from_east_m, t.north_m - t.from_north_m);
   const double speed = std::hypot(t.east_mps, t.north_mps);
-  return t.hits >= kConfirmHits && t.cells >= kConfirmCells && gone_m >= kConfirmM &&
-         gone_m >= kStraight * t.way_m && speed >= kConfirmMps && speed <= kMostMps &&
+  const double least_m = std::max(kConfirmM, kConfirmSigmas * depth_error_m(t.east_m, t.north_m));
+  const double along = (t.east_m - t.from_east_m) * t.east_mps + (t.north_m - t.from_north_m) * t.north_mps;
+  return t.hits >= kConfirmHits && t.cells >= kConfirmCells && gone_m >= least_m && gone_m >= kStraight * t.way_m &&
+         speed >= kConfirmMps && speed <= kMostMps && along >= kAlongCosine * gone_m * speed &&
          seen_near(t.from_east_m, t.from_north_m, 1) != old;
 }
 
@@ -135,8 +137,8 @@ void MotionWatch::judge(Track& t, std::int64_t time_ns) {
   }
   if (t.moves) {
     t.slow = !measured || speed > kSlowMps ? 0 : t.slow + 1;
-    if (t.absent >= kAbsentFrames || time_ns - t.seen_ns > kRememberedNs || t.slow >= kSlowHits ||
-        speed > 2 * kMostMps)
+    const std::int64_t remembered_ns = std::min(kRememberedNs, t.hits * kRememberedPerHitNs);
+    if (t.absent >= kAbsentFrames || time_ns - t.seen_ns > remembered_ns || t.slow >= kSlowHits || speed > kMostMps)
       t = {};
     return;
   }

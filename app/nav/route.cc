@@ -13,7 +13,8 @@ namespace lakshya {
 namespace {
 
 constexpr int kTight = 60;         // what a cell at the margin costs more than a free one, tenths
-constexpr int kCorner = 60;        // share of the way's least squared distance that a straight line keeps, percent
+constexpr double kCutCells = 0.5;  // by which a straight line may come nearer to obstacles than the way does
+constexpr double kEasyCells = 1.5; // ... it need not keep more than this from what is closed
 constexpr int kStopShare = 82;     // of the squared distance that a way keeps: nearer the vehicle stops, percent
 constexpr double kSeenBehind = 3;  // cells behind the blind zone in which its floor may begin to show
 
@@ -117,7 +118,8 @@ void RoutePlanner::aim(const Pose& pose, double x, double y, Route& route) const
     const double to_x = u + 0.5;
     const double to_y = v + 0.5;
     // A straight line may cut a corner of the way, but not come much nearer to obstacles.
-    const int allowed2 = std::max(closed2_, kCorner * least2 / 100);
+    const double keeps = std::min(std::sqrt(least2) - kCutCells, std::sqrt(closed2_) + kEasyCells);
+    const int allowed2 = std::max(closed2_, static_cast<int>(std::ceil(keeps * std::max(keeps, 0.0))));
     const bool begins = k == 0;  // no straight line may lead farther than to the next cell
     if (!begins && (std::hypot(to_x - x, to_y - y) > reach || !straight_is_free(x, y, to_x, to_y, allowed2))) break;
     aim_x = to_x;

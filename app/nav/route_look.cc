@@ -70,15 +70,16 @@ int RoutePlanner::place_on_the_way(bool through_obstacles, double goal_x, double
   return place;
 }
 
-// The place to look at: a gap that was not looked at yet, else any gap, else where the way is barred by least. -1: none. Leaves the
-// factors as they were, and the costs of the search from the vehicle through what is open.
+// The place to look at: a gap that was not looked at yet, else where the way is barred by least; when all was looked at, the same once
+// more. -1: none. Leaves the factors as they were, and the costs of the search from the vehicle through what is open.
 int RoutePlanner::doubtful_place(double goal_x, double goal_y) {
   int place = place_on_the_way(false, goal_x, goal_y);
+  if (place < 0) place = place_on_the_way(true, goal_x, goal_y);
   if (place < 0 && looked_at_count_ > 0) {
     looked_at_count_ = 0;
     place = place_on_the_way(false, goal_x, goal_y);
+    if (place < 0) place = place_on_the_way(true, goal_x, goal_y);
   }
-  if (place < 0) place = place_on_the_way(true, goal_x, goal_y);
   search();
   return place;
 }

@@ -106,7 +106,8 @@ class Drive final : public FrameSink {
     watch_progress(vehicle, time_s);
     watch_standing(vehicle);
     if (!over_ && arrived_) {
-      end(goal_distance(vehicle) <= rules_.goal_tolerance_m ? Ending::reached : Ending::stuck);
+      const double allowed_m = rules_.goal_tolerance_m + rules_.goal_drift * vehicle.path_m;
+      end(goal_distance(vehicle) <= allowed_m ? Ending::reached : Ending::stuck);
     }
     if (!over_ && time_s >= world_->time_limit_s) end(Ending::timeout);
     if (over_) finish(vehicle, time_s);

@@ -12,7 +12,8 @@
 namespace lakshya::sim {
 
 // What ends a drive, and what counts:
-//  reached    the loop says that all way points are reached, and the last one is truly within goal_tolerance_m
+//  reached    the loop says that all way points are reached, and the last one is truly within goal_tolerance_m and goal_drift of the
+//             way: wheels and compass alone do not know better where they are
 //  collision  the body touches an obstacle. Excused: glass; a person who was not in view for person_seen_s of the last
 //             person_memory_s seconds; contact while the vehicle stands is no collision but a bump.
 //  dropoff    a wheel or a caster gets over a drop-off
@@ -21,7 +22,8 @@ namespace lakshya::sim {
 // A false stop: the vehicle stands for false_stop_s, before its last way point, although a body of its radius could go on straight
 // ahead for false_stop_clear_m.
 struct RunRules {
-  double goal_tolerance_m = 1.2;
+  double goal_tolerance_m = 0.8;
+  double goal_drift = 0.05;  // metres per metre of way
   double person_seen_s = 1;
   double person_memory_s = 4;
   double stuck_way_m = 0.3;

@@ -123,8 +123,6 @@ std::vector<std::string> simulated_vehicle_settings(bool indoor) {
                                 "matcher.uniqueness_percent=20",
                                 "matcher.support_min_percent=45",
                                 "matcher.support_radius_px=4"};
-  // A plain wall shows little but noise, and its matches go on with the floor's: better nothing is seen there than floor.
-  if (indoor) sets.emplace_back("matcher.texture_threshold=100");
   if (!indoor) sets.insert(sets.end(), {"vehicle.max_speed_mps=1.5", "planner.active_radius_m=4"});
   return sets;
 }
