@@ -44,6 +44,7 @@ RollingMapParams rolling_map_params(const VehicleConfig& config, const Rectified
               .left_m = config.camera.left_m,
               .yaw = config.camera.yaw_deg * kDegree,
               .angle = std::clamp(above - config.camera.pitch_deg * kDegree, -1.5, 1.5)};
+  p.view = std::min(std::atan(camera.width / (2 * camera.focal_px)), 1.5);
   p.depth_sigma = config.prune.disparity_sigma_px / (camera.focal_px * camera.baseline_m);
   return p;
 }

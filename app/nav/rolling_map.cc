@@ -17,7 +17,7 @@ bool usable(const RollingMapParams& p) {
          p.deceleration_mps2 > 0 && std::isfinite(p.deceleration_mps2) && in(p.radius_m, 1e2) && p.far_hits >= 1 &&
          p.far_hits <= RollingMap::kBelieved && std::isfinite(p.camera.height_m) &&
          std::isfinite(p.camera.forward_m) && std::isfinite(p.camera.left_m) && std::isfinite(p.camera.yaw) &&
-         std::abs(p.camera.angle) <= 1.5 && in(p.depth_sigma, 1e2);
+         std::abs(p.camera.angle) <= 1.5 && in(p.view, 1.5) && in(p.depth_sigma, 1e2);
 }
 
 }  // namespace
@@ -44,6 +44,9 @@ Status RollingMap::configure(const RollingMapParams& params, const GridGeometry&
   edge_forward_ = std::cos(camera.yaw) * std::tan(camera.angle);
   edge_left_ = std::sin(camera.yaw) * std::tan(camera.angle);
   edge_height_ = camera.height_m - camera.forward_m * edge_forward_ - camera.left_m * edge_left_;
+  view_cos_ = std::cos(params.view);
+  yaw_cos_ = std::cos(camera.yaw);
+  yaw_sin_ = std::sin(camera.yaw);
   keep_ = static_cast<std::uint32_t>(std::llround(params.keep_s / (kTickNs * kNanosecond)));
   reset();
   return Status::ok;
@@ -124,7 +127,19 @@ void RollingMap::see_free(std::size_t i, double forward, double left) {
   } else {
     evidence = kFree;
   }
+  if (evidence == kFree) memory_.height[i] = 0;
   memory_.seen[i] = now_;
+}
+
+// Whether floor there would be in view, and near enough that it should be seen.
+bool RollingMap::looks_at(double forward, double left) const {
+  const double far_m = params_.blind_m + kDoubtM;
+  const double squared = forward * forward + left * left;
+  if (squared < params_.blind_m * params_.blind_m || squared > far_m * far_m) return false;
+  const double x = forward - params_.camera.forward_m;
+  const double y = left - params_.camera.left_m;
+  const double ahead = x * yaw_cos_ + y * yaw_sin_;
+  return ahead > 0 && ahead * ahead > view_cos_ * view_cos_ * (x * x + y * y);
 }
 
 void RollingMap::clear_seen_free(const NavGrid& frame, const Sight& sight) {
@@ -134,8 +149,12 @@ void RollingMap::clear_seen_free(const NavGrid& frame, const Sight& sight) {
     const std::uint8_t type = frame.type.at(c, r);
     if (type == kCellUnoccupied) {
       see_free(i, cells_of(row) * cell_m_, (sight.half - cells_of(column)) * cell_m_);
-    } else if (type == kCellObstacle && memory_.evidence[i] == kFree && !is_smear(frame, r, c)) {
-      memory_.evidence[i] = 0;
+    } else if (memory_.evidence[i] != kFree) {
+      return;
+    } else if (type == kCellObstacle) {
+      if (!is_smear(frame, r, c)) memory_.evidence[i] = 0;
+    } else if (params_.view > 0 && looks_at(cells_of(row) * cell_m_, (sight.half - cells_of(column)) * cell_m_)) {
+      if (++memory_.height[i] >= kDoubts) memory_.evidence[i] = 0;
     }
   });
 }
@@ -193,7 +212,10 @@ void RollingMap::stand_here(const Sight& sight) {
       const double east = static_cast<double>(x) + 0.5 - sight.east;
       const double north = static_cast<double>(y) + 0.5 - sight.north;
       const double squared = east * east + north * north;
-      if (radius > 0 && squared <= radius * radius) memory_.evidence[i] = kFree;
+      if (radius > 0 && squared <= radius * radius) {
+        memory_.evidence[i] = kFree;
+        memory_.height[i] = 0;
+      }
       if (squared <= blind * blind) memory_.seen[i] = now_;
     }
   }

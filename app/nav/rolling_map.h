@@ -8,6 +8,8 @@
 // farther it is; of such a streak, 2 sigma to either side, only cells with at least half the points of the densest add anything. Unknown cells of a frame change nothing: what the camera does not see (blind zone, beside,
 // behind) stays for keep_s, an obstacle for keep_s for each kBelieved of its evidence, and what is within blind_m for as long as the
 // vehicle is there.
+// Free ground near by that the camera looks at and does not see in kDoubts frames in a row is unknown again: floor that a matcher went
+// on with into a wall that shows nothing is seen from far away only.
 // Floor seen below something does not clear it: an obstacle loses evidence only where the camera's upper edge, as far away as the
 // cell is, lies above the greatest mean height that the cell was seen with. So a bar or a table top that has left the image at
 // the top stays.
@@ -51,6 +53,7 @@ struct RollingMapParams {
   double deceleration_mps2 = 2.0;  // of braking, > 0
   double radius_m = 0.35;          // the vehicle's
   UpperEdge camera;
+  double view = 0;  // half of the camera's field of view, rad, within 1.5; 0: free ground is never doubted
   double depth_sigma =
       0;  // standard deviation of a depth at 1 m, which grows with its square: sigma_d / (f B), m; 0: no streaks
 };
@@ -58,8 +61,9 @@ struct RollingMapParams {
 // One of each for every cell, rolling_map_side() squared.
 struct RollingMapMemory {
   std::span<std::uint8_t> evidence;  // 0: unknown, 1: free, 1 + n: n of an obstacle
-  std::span<std::int16_t> height;    // greatest mean height of the obstacle, mm
-  std::span<std::uint32_t> seen;     // when last seen, in units of kTickNs since the first frame
+  std::span<std::int16_t>
+      height;  // greatest mean height of the obstacle, mm; of free ground: frames that did not see it
+  std::span<std::uint32_t> seen;  // when last seen, in units of kTickNs since the first frame
 };
 
 inline constexpr int kRollingMapMaxSide = 4096;  // cells
@@ -75,6 +79,8 @@ class RollingMap {
   static constexpr int kClearedFar = 2;
   static constexpr int kSunk = 2;
   static constexpr std::size_t kThickness = 2;
+  static constexpr int kDoubts = 5;             // frames in a row
+  static constexpr double kDoubtM = 1.2;        // how far beyond blind_m
   static constexpr double kEdgeMarginM = 0.05;  // of the upper edge above a remembered height
   static constexpr int kStreak = 6;             // cells to either side, at most
   static constexpr std::int64_t kTickNs = 10'000'000;
@@ -112,6 +118,7 @@ class RollingMap {
   void roll(std::int64_t x, std::int64_t y);
   void clear_seen_free(const NavGrid& frame, const Sight& sight);
   void see_free(std::size_t i, double forward, double left);
+  bool looks_at(double forward, double left) const;
   bool sees_height(std::size_t i, double forward, double left) const;
   void add_obstacles(const NavGrid& frame, const Sight& sight);
   bool is_smear(const NavGrid& frame, int row, int col) const;
@@ -130,6 +137,9 @@ class RollingMap {
   double edge_forward_ = 0;  // how the height of the upper edge changes per metre ahead and to the left
   double edge_left_ = 0;
   double edge_height_ = 0;  // above the turning centre
+  double view_cos_ = 1;     // of half the field of view
+  double yaw_cos_ = 1;      // of the camera
+  double yaw_sin_ = 0;
 
   bool started_ = false;
   std::int64_t first_ns_ = 0;

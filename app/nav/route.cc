@@ -12,11 +12,12 @@
 namespace lakshya {
 namespace {
 
-constexpr int kTight = 60;         // what a cell at the margin costs more than a free one, tenths
-constexpr double kCutCells = 0.5;  // by which a straight line may come nearer to obstacles than the way does
-constexpr double kEasyCells = 1.5; // ... it need not keep more than this from what is closed
-constexpr int kStopShare = 82;     // of the squared distance that a way keeps: nearer the vehicle stops, percent
-constexpr double kSeenBehind = 3;  // cells behind the blind zone in which its floor may begin to show
+constexpr int kTight = 60;            // what a cell at the margin costs more than a free one, tenths
+constexpr double kCutCells = 0.5;     // by which a straight line may come nearer to obstacles than the way does
+constexpr double kEasyCells = 1.5;    // ... it need not keep more than this from what is closed
+constexpr int kStopShare = 82;        // of the squared distance that a way keeps: nearer the vehicle stops, percent
+constexpr double kUnsureCells = 1.5;  // by which floor may seem to go on into a wall that shows nothing
+constexpr double kSeenBehind = 3;     // cells behind the blind zone in which its floor may begin to show
 
 bool in(double value, double least, double most) {
   return value >= least && value <= most;
@@ -98,10 +99,11 @@ ClearDistance RoutePlanner::clear_along(double x, double y, double angle) const 
     const int u = static_cast<int>(std::floor(x + k * dx));
     const int v = static_cast<int>(std::floor(y + k * dy));
     const double length = k / 2.0;
-    if (!inside(u, v) || length >= unseen) return {length * cell_m_, ClearEnd::unknown};
+    const double known_m = std::max(length - kUnsureCells, 0.0) * cell_m_;
+    if (!inside(u, v) || length >= unseen) return {known_m, ClearEnd::unknown};
     const auto i = static_cast<std::size_t>(index(u, v));
     if (memory_.distance2[i] < least2) return {length * cell_m_ + params_.radius_m, ClearEnd::obstacle};
-    if (memory_.type[i] == kCellUnknown && length > blind) return {length * cell_m_, ClearEnd::unknown};
+    if (memory_.type[i] == kCellUnknown && length > blind) return {known_m, ClearEnd::unknown};
   }
 }
 
@@ -147,7 +149,7 @@ Status RoutePlanner::plan(const RollingMap& map, const Pose& pose, double target
   search();
   int end = choose_end(goal_x, goal_y);
   if (reaches(end, goal_x, goal_y)) {
-    looked_at_count_ = looks_ = 0;
+    looked_at_count_ = looks_ = doubts_ = 0;
   } else {
     const int nearest = end;
     end = look_again(pose, x, y, goal_x, goal_y, route);

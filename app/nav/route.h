@@ -70,7 +70,7 @@ class RoutePlanner {
   // bad_argument: a parameter that is not finite or out of range; size_mismatch: the memory. Keeps the memory.
   Status configure(const RouteParams& params, std::int32_t cell_mm, const RouteMemory& memory);
   // Forgets the way of the plan before, and what was looked at.
-  void reset() { count_ = looked_at_count_ = looks_ = 0; }
+  void reset() { count_ = looked_at_count_ = looks_ = doubts_ = 0; }
 
   // The map as of its last add(), made at `pose`; target in the world frame, metres. bad_argument: not finite.
   // turning: the angle that the vehicle will turn further even if it is told otherwise, rad.
@@ -103,7 +103,9 @@ class RoutePlanner {
   int view_point(int place) const;
   bool sees(double x, double y, double place_x, double place_y) const;
   bool has_been_looked_at(double u, double v) const;
-  void note_looked_at(const Point& place);
+  bool is_closed(const Point& place) const;
+  bool choose_doubt(double goal_x, double goal_y);
+  void note_looked_at();
   bool straight_is_free(double x, double y, double to_x, double to_y, int least_distance2) const;
   double unseen_from(double x, double y, double dx, double dy) const;
   ClearDistance clear_along(double x, double y, double angle) const;
@@ -123,7 +125,9 @@ class RoutePlanner {
   int count_ = 0;
   std::array<Point, kRouteLooks> looked_at_{};  // in vain
   int looked_at_count_ = 0;
-  int looks_ = 0;  // plans in which it has faced the place that it doubts
+  Point doubted_;   // the place that it goes to look at
+  int doubts_ = 0;  // plans for which it still may; 0: none is doubted
+  int looks_ = 0;   // plans in which it has faced it
 };
 
 }  // namespace lakshya

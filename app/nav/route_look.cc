@@ -20,6 +20,7 @@ constexpr double kMostWay = 18;
 constexpr double kArrived = 2;      // cells
 constexpr double kFaces = 0.25;     // rad
 constexpr int kLooks = 8;           // plans for which it faces the place
+constexpr int kDoubtedFor = 100;    // plans after which it gives up going there
 constexpr double kSamePlace = 10;   // cells
 constexpr double kPlaceItself = 6;  // cells before it that may hide it: they are what is doubted
 
@@ -114,32 +115,52 @@ int RoutePlanner::view_point(int place) const {
   return best;
 }
 
-void RoutePlanner::note_looked_at(const Point& place) {
-  looks_ = 0;
+void RoutePlanner::note_looked_at() {
+  looks_ = doubts_ = 0;
   if (looked_at_count_ == kRouteLooks) looked_at_count_ = 0;  // all once more
-  looked_at_[static_cast<std::size_t>(looked_at_count_++)] = place;
+  looked_at_[static_cast<std::size_t>(looked_at_count_++)] = doubted_;
+}
+
+bool RoutePlanner::is_closed(const Point& place) const {
+  const auto u = static_cast<int>(place.x - x_begin_);
+  const auto v = static_cast<int>(place.y - y_begin_);
+  return inside(u, v) && memory_.factor[static_cast<std::size_t>(index(u, v))] == kRouteClosed;
+}
+
+// The place that was chosen stays the one, while it is closed and not for ever: which way is the cheapest changes with every frame, and
+// the vehicle would turn to and fro between two of them.
+bool RoutePlanner::choose_doubt(double goal_x, double goal_y) {
+  if (doubts_ > 0 && is_closed(doubted_)) {
+    if (--doubts_ > 0) return true;
+    note_looked_at();
+  }
+  const int place = doubtful_place(goal_x, goal_y);
+  doubts_ = looks_ = 0;
+  if (place < 0) return false;
+  doubted_ = {x_begin_ + place % kRouteSide, y_begin_ + place / kRouteSide};
+  doubts_ = kDoubtedFor;
+  return true;
 }
 
 int RoutePlanner::look_again(const Pose& pose, double x, double y, double goal_x, double goal_y, Route& route) {
-  const int place = doubtful_place(goal_x, goal_y);
-  if (place < 0) return -1;
-  const Point at{x_begin_ + place % kRouteSide, y_begin_ + place / kRouteSide};
-  const double dx = place % kRouteSide + 0.5 - x;
-  const double dy = place / kRouteSide + 0.5 - y;
+  if (!choose_doubt(goal_x, goal_y)) return -1;
+  const auto u = static_cast<int>(doubted_.x - x_begin_);
+  const auto v = static_cast<int>(doubted_.y - y_begin_);
+  const double dx = u + 0.5 - x;
+  const double dy = v + 0.5 - y;
   const double way = std::hypot(dx, dy);
-  const bool stands_well = way > kLeastWay - kArrived && way < kMostWay + kArrived &&
-                           sees(x, y, place % kRouteSide + 0.5, place / kRouteSide + 0.5);
+  const bool stands_well = way > kLeastWay - kArrived && way < kMostWay + kArrived && sees(x, y, u + 0.5, v + 0.5);
   if (!stands_well) {
     looks_ = 0;
-    const int from = view_point(place);
-    if (from < 0) note_looked_at(at);
+    const int from = view_point(index(u, v));
+    if (from < 0) note_looked_at();
     return from;
   }
   route.found = true;
   route.looks = true;
   route.direction = wrap_angle(std::atan2(dy, dx) - pose.yaw);
   if (std::abs(route.direction) > kFaces) return start_;
-  if (++looks_ >= kLooks) note_looked_at(at);
+  if (++looks_ >= kLooks) note_looked_at();
   return start_;
 }
 

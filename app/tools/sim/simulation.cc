@@ -120,9 +120,10 @@ std::vector<std::string> simulated_vehicle_settings(bool indoor) {
                                 "camera.left_m=0.06",
                                 "planner.name=route",
                                 "planner.blind_zone_m=0.5",
-                                "matcher.uniqueness_percent=20",
+                                "matcher.uniqueness_percent=25",
                                 "matcher.support_min_percent=45",
-                                "matcher.support_radius_px=4"};
+                                "matcher.support_radius_px=4",
+                                "matcher.support_max_difference=32"};
   if (!indoor) sets.insert(sets.end(), {"vehicle.max_speed_mps=1.5", "planner.active_radius_m=4"});
   return sets;
 }
