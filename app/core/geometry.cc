@@ -55,6 +55,7 @@ RouteParams route_params(const VehicleConfig& config, const RectifiedGeometry& c
   p.margin_m = config.planner.route_margin_m;
   p.comfort_m = config.planner.route_comfort_m;
   p.reach_m = config.planner.route_reach_m;
+  p.first_look = config.planner.route_first_look_deg * kDegree;
   p.blind_m = blind_zone_m(config, camera);
   p.view = std::atan(camera.width / (2 * camera.focal_px));
   return p;

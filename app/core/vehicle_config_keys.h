@@ -266,6 +266,10 @@ void visit_planner_keys(Planner& c, Visitor& v) {
   v(Key{"planner.route_comfort_m", "m", "route: distance from the vehicle's side that is kept where that is cheap"},
     c.route_comfort_m, Range{0, 5});
   v(Key{"planner.route_reach_m", "m", "route: how far ahead the vehicle aims"}, c.route_reach_m, Range{0.2, 20});
+  v(Key{"planner.route_first_look_deg", "deg",
+        "route: how far the vehicle turns to either side before it sets off, to see what stands beside it; 0: not "
+        "at all"},
+    c.route_first_look_deg, Range{0, 90});
   v(Key{"planner.vfh_smoothing", "sectors",
         "vfh: neighbours to either side that a sector's density is smoothed with (l); 0: none"},
     c.vfh_smoothing, Range{0, kMaxSmoothing});

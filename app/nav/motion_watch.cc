@@ -17,7 +17,7 @@ constexpr int kGap = 2;  // cells between the cells of one cluster, at most
 constexpr int kWrap = kWatchSide - 1;
 static_assert((kWatchSide & kWrap) == 0);
 constexpr double kMostError = 2;  // cells
-constexpr int kOccupied = 128;  // bit of free_run
+constexpr int kOccupied = 128;    // bit of free_run
 
 }  // namespace
 

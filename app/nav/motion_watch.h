@@ -34,9 +34,9 @@ inline constexpr std::size_t kWatchCells = std::size_t{kWatchSide} * kWatchSide;
 struct MotionWatchParams {
   double forward_m = 0;
   double left_m = 0;
-  double yaw = 0;        // positive to the left
-  double view = 0.6;     // half of its field of view, in (0, 1.5]
-  double blind_m = 1.0;  // nearer than this it sees no floor
+  double yaw = 0;          // positive to the left
+  double view = 0.6;       // half of its field of view, in (0, 1.5]
+  double blind_m = 1.0;    // nearer than this it sees no floor
   double depth_sigma = 0;  // standard deviation of a depth at 1 m: RollingMapParams
 };
 
@@ -53,8 +53,8 @@ class MotionWatch {
   static constexpr std::int64_t kFreshNs = 1'600'000'000;
   static constexpr std::int64_t kRememberedNs = 4'500'000'000;
   static constexpr std::int64_t kRememberedPerHitNs = 250'000'000;  // at most for each time that it was seen
-  static constexpr double kReachM = 6;               // farther obstacle cells are not looked at
-  static constexpr double kLeastMeanHeightM = 0.15;  // of a cluster
+  static constexpr double kReachM = 6;                              // farther obstacle cells are not looked at
+  static constexpr double kLeastMeanHeightM = 0.15;                 // of a cluster
   static constexpr double kMostExtentM = 1.0;
   static constexpr int kLeastCells = 2;
   static constexpr int kConfirmCells = 4;  // in the largest of a track's clusters
@@ -67,7 +67,7 @@ class MotionWatch {
   static constexpr double kConfirmMps = 0.2;
   static constexpr double kMostMps = 2.5;
   static constexpr double kAlongCosine = 0.8;  // of the largest angle between the way gone and the velocity
-  static constexpr double kStraight = 0.7;  // least share of the way gone that is left between its ends
+  static constexpr double kStraight = 0.7;     // least share of the way gone that is left between its ends
 
   // geometry: of the frames. bad_argument: no such grid or camera; size_mismatch: the memory. Forgets everything. Keeps the memory.
   Status configure(const MotionWatchParams& params, const GridGeometry& geometry, const MotionWatchMemory& memory);

@@ -28,7 +28,7 @@ bool in(double value, double least, double most) {
 Status RoutePlanner::configure(const RouteParams& p, std::int32_t cell_mm, const RouteMemory& memory) {
   if (!in(p.radius_m, 0, 100) || !in(p.margin_m, 0, 100) || !in(p.comfort_m, 0, 100) ||
       !in(p.reach_m, 0.01, 1000) || !in(p.blind_m, 0, 1000) || !in(p.view, 0, 4) ||
-      !in(p.unknown_near_m, 0, 1000) || cell_mm < 1)
+      !in(p.unknown_near_m, 0, 1000) || !in(p.first_look, 0, 1.6) || cell_mm < 1)
     return Status::bad_argument;
   const auto fits = [](const auto& span) { return span.size() == kRouteCells; };
   if (!fits(memory.type) || !fits(memory.distance2) || !fits(memory.factor) || !fits(memory.cost) ||
@@ -143,6 +143,7 @@ Status RoutePlanner::plan(const RollingMap& map, const Pose& pose, double target
   const double y = pose.north_m / cell_m_ - static_cast<double>(y_begin_);
   const double goal_x = target_east_m / cell_m_ - static_cast<double>(x_begin_);
   const double goal_y = target_north_m / cell_m_ - static_cast<double>(y_begin_);
+  if (look_round(pose, target_east_m, target_north_m, route)) return Status::ok;
   measure_distances();
   price_cells(pose, x, y);
   start_ = index(static_cast<int>(x), static_cast<int>(y));

@@ -7,6 +7,8 @@
 // the one that it has begun. A target beyond the window is sought by the way to the border that leaves least to go.
 // Where no way leads to the target, the cheapest one through closed cells shows which of them to doubt: the vehicle goes to where it
 // has them in view from farther than its blind zone, turns towards them, and looks at the next place if they stay closed.
+// Before it sets off the vehicle turns first_look to either side: what stands beside it at the start, and beyond the border of the view,
+// would never come into view, and its side would sweep there.
 // The direction is that of the farthest point of the way, up to reach_m ahead, that a straight line reaches without coming nearer
 // to obstacles than the way itself does.
 //
@@ -33,6 +35,7 @@ struct RouteParams {
   double reach_m = 1.2;         // how far ahead the direction aims
   double blind_m = 1.0;         // what is nearer than this the camera does not see
   double view = 0.6;            // rad, half of the camera's field of view
+  double first_look = 0;        // rad that it turns to either side before it sets off, to see what stands beside it
   double unknown_near_m = 2.0;  // unknown cells in view and nearer than this are very likely not free
 };
 
@@ -70,7 +73,7 @@ class RoutePlanner {
   // bad_argument: a parameter that is not finite or out of range; size_mismatch: the memory. Keeps the memory.
   Status configure(const RouteParams& params, std::int32_t cell_mm, const RouteMemory& memory);
   // Forgets the way of the plan before, and what was looked at.
-  void reset() { count_ = looked_at_count_ = looks_ = doubts_ = 0; }
+  void reset() { count_ = looked_at_count_ = looks_ = doubts_ = first_looks_ = first_plans_ = 0; }
 
   // The map as of its last add(), made at `pose`; target in the world frame, metres. bad_argument: not finite.
   // turning: the angle that the vehicle will turn further even if it is told otherwise, rad.
@@ -103,6 +106,7 @@ class RoutePlanner {
   int view_point(int place) const;
   bool sees(double x, double y, double place_x, double place_y) const;
   bool has_been_looked_at(double u, double v) const;
+  bool look_round(const Pose& pose, double target_east_m, double target_north_m, Route& route);
   bool is_closed(const Point& place) const;
   bool choose_doubt(double goal_x, double goal_y);
   void note_looked_at();
@@ -125,9 +129,14 @@ class RoutePlanner {
   int count_ = 0;
   std::array<Point, kRouteLooks> looked_at_{};  // in vain
   int looked_at_count_ = 0;
-  Point doubted_;   // the place that it goes to look at
-  int doubts_ = 0;  // plans for which it still may; 0: none is doubted
-  int looks_ = 0;   // plans in which it has faced it
+  Point doubted_;        // the place that it goes to look at
+  int doubts_ = 0;       // plans for which it still may; 0: none is doubted
+  int first_looks_ = 0;  // sides that it has looked to since reset()
+  int first_plans_ = 0;  // ... and plans that it took so far
+  double first_yaw_ = 0;
+  double last_yaw_ = 0;
+  double first_side_ = 1;
+  int looks_ = 0;  // plans in which it has faced it
 };
 
 }  // namespace lakshya

@@ -19,6 +19,9 @@ constexpr double kLeastWay = 12;  // cells between the vehicle that looks and th
 constexpr double kMostWay = 18;
 constexpr double kArrived = 2;      // cells
 constexpr double kFaces = 0.25;     // rad
+constexpr double kTurned = 0.12;    // rad
+constexpr double kJump = 0.4;       // rad from plan to plan: the heading has only been found now
+constexpr int kFirstPlans = 80;     // at most, for both sides
 constexpr int kLooks = 8;           // plans for which it faces the place
 constexpr int kDoubtedFor = 100;    // plans after which it gives up going there
 constexpr double kSamePlace = 10;   // cells
@@ -139,6 +142,26 @@ bool RoutePlanner::choose_doubt(double goal_x, double goal_y) {
   if (place < 0) return false;
   doubted_ = {x_begin_ + place % kRouteSide, y_begin_ + place / kRouteSide};
   doubts_ = kDoubtedFor;
+  return true;
+}
+
+// To the side where the target is not, then to the other; true while it does. One that cannot turn gives up.
+bool RoutePlanner::look_round(const Pose& pose, double target_east_m, double target_north_m, Route& route) {
+  if (params_.first_look <= 0 || first_looks_ >= 2) return false;
+  const bool jumped = std::abs(wrap_angle(pose.yaw - last_yaw_)) > kJump;
+  last_yaw_ = pose.yaw;
+  if (first_plans_ == 0 || jumped) {
+    first_looks_ = 0;
+    first_yaw_ = pose.yaw;
+    const double to_target = std::atan2(target_north_m - pose.north_m, target_east_m - pose.east_m);
+    first_side_ = wrap_angle(to_target - pose.yaw) > 0 ? -1 : 1;
+  }
+  const double side = first_looks_ == 0 ? first_side_ : -first_side_;
+  route.direction = wrap_angle(first_yaw_ + side * params_.first_look - pose.yaw);
+  if (std::abs(route.direction) < kTurned) ++first_looks_;
+  if (++first_plans_ >= kFirstPlans) first_looks_ = 2;
+  route.found = true;
+  route.looks = true;
   return true;
 }
 

@@ -114,8 +114,8 @@ Status Simulation::produce(Nanoseconds time, std::uint64_t number, ImageView<std
 // The matcher's limits are stricter than for pictures with ground truth, where a wrong match costs no more than a missing one: here it
 // stands in the way.
 std::vector<std::string> simulated_vehicle_settings(bool indoor) {
-  std::vector<std::string> sets{"camera.height_m=0.9",
-                                "camera.pitch_deg=12",
+  std::vector<std::string> sets{"camera.height_m=1.05",
+                                "camera.pitch_deg=15",
                                 "camera.forward_m=0.2",
                                 "camera.left_m=0.06",
                                 "planner.name=route",

@@ -145,6 +145,20 @@ TEST_F(MotionWatchTest, WhatStandsIsNoMover) {
   }
 }
 
+// The error of a depth grows with its square: 0.27 m at 5 m with a short baseline.
+TEST_F(MotionWatchTest, WhatTremblesByTheErrorOfItsDepthIsNoMover) {
+  params.depth_sigma = 0.011;
+  ASSERT_EQ(watch.configure(params, geometry, {free_at, free_run, now}), Status::ok);
+  std::mt19937 random(11);
+  std::normal_distribution<double> tremble(0, 0.27);
+  double east = 5;
+  for (int k = 0; k < 300; ++k) {
+    east += 0.4 * (5 + tremble(random) - east);
+    look({{east, 0.4}});
+    ASSERT_TRUE(watch.movers().empty()) << k;
+  }
+}
+
 TEST_F(MotionWatchTest, SingleFalseCellsAreNoMover) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> where(-1.5, 1.5);

@@ -112,6 +112,35 @@ TEST_F(RollingMapTest, OfAStreakOnlyTheDenseCellsAreBelieved) {
   EXPECT_EQ(cell(45, 40), kCellObstacle);
 }
 
+// A matcher has gone on with the floor into a wall that shows nothing; nearer to it there is none.
+TEST_F(RollingMapTest, FreeGroundThatIsLookedAtAndNotSeenIsTakenBack) {
+  params.view = radians(40);
+  configure();
+  fill(kCellUnoccupied);
+  add();
+  block(15, 60, 0, 80, kCellUnknown);
+  for (int i = 1; i < RollingMap::kDoubts; ++i)
+    add();
+  EXPECT_EQ(cell(17, 40), kCellUnoccupied);
+  add();
+  EXPECT_EQ(cell(17, 40), kCellUnknown);
+  EXPECT_EQ(cell(18, 33), kCellUnknown);
+  EXPECT_EQ(cell(14, 40), kCellUnoccupied);
+  EXPECT_EQ(cell(25, 40), kCellUnoccupied);  // beyond 1.0 m and 1.2 m: too far away to say
+  EXPECT_EQ(cell(15, 20), kCellUnoccupied);  // 52 degrees to the left: not in view
+}
+
+TEST_F(RollingMapTest, FloorWithHolesStaysFree) {
+  params.view = radians(40);
+  configure();
+  for (int i = 0; i < 30; ++i) {
+    fill(kCellUnoccupied);
+    if (i % RollingMap::kDoubts != 0) block(15, 20, 35, 45, kCellUnknown);
+    add();
+    ASSERT_EQ(cell(17, 40), kCellUnoccupied) << i;
+  }
+}
+
 TEST_F(RollingMapTest, AFrameOfTheStandingVehicleIsShownAsItIs) {
   configure();
   fill(kCellUnoccupied);

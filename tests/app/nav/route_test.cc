@@ -154,6 +154,68 @@ TEST_F(RouteTest, WhatStaysClosedIsLeftForTheNextPlace) {
   EXPECT_TRUE(plan(3.5, 0).reaches_target);
 }
 
+// Which gap is the cheapest changes as the map does; the vehicle does not turn to and fro.
+TEST_F(RouteTest, ThePlaceThatItDoubtsStaysTheOne) {
+  see(divided_room);
+  EXPECT_NEAR(plan(3.5, 0).direction, 0, radians(10));
+  for (int i = 0; i < 8; ++i)
+    see([](double x, double y) {
+      return std::abs(x) > 4 || std::abs(y) > 3 || (x > 1.9 && x < 2.2 && std::abs(y - 2) > 0.34);
+    });
+  EXPECT_NEAR(plan(3.5, 0).direction, 0, radians(10));
+  int plans = 0;
+  while (plans < 30 && plan(3.5, 0).direction < radians(20))
+    ++plans;
+  EXPECT_GE(plans, 4);
+  EXPECT_LT(plans, 12);
+}
+
+// Round the corner of a long box: there is room on the other side.
+TEST_F(RouteTest, AStraightAimKeepsItsDistanceFromACorner) {
+  see([](double x, double y) { return x > 1 && x < 2 && y < 0.2 && y > -6; });
+  for (double along = 0; along < 1.2; along += 0.05) {
+    const Route route = plan(2.5, -2, {along, 0.9, 0});
+    ASSERT_TRUE(route.found);
+    const double c = std::cos(route.direction);
+    const double s = std::sin(route.direction);
+    for (double way = 0; way <= route.straight_m; way += 0.02) {
+      const double x = along + way * c;
+      const double y = 0.9 + way * s;
+      const double dx = std::max({1 - x, 0.0, x - 2});
+      const double dy = std::max(0.0, y - 0.2);
+      ASSERT_GT(std::hypot(dx, dy), 0.35 + 0.10) << along << ' ' << way;
+    }
+  }
+}
+
+TEST_F(RouteTest, LooksToBothSidesBeforeItSetsOff) {
+  route_params_.first_look = radians(35);
+  RouteMemory memory{bytes_[0], bytes_[1], bytes_[2], words_[0], words_[1], words_[2], bytes_[3]};
+  ASSERT_EQ(planner_.configure(route_params_, geometry_.cell_mm, memory), Status::ok);
+  see([](double, double) { return false; });
+  Route route = plan(5, 1);
+  EXPECT_TRUE(route.looks);
+  EXPECT_EQ(route.clear_m, 0);
+  EXPECT_NEAR(route.direction, radians(-35), 1e-9);  // the target is to the left
+  EXPECT_NEAR(plan(5, 1, {0, 0, radians(-20)}).direction, radians(-15), 1e-9);
+  plan(5, 1, {0, 0, radians(-33)});
+  EXPECT_NEAR(plan(5, 1, {0, 0, radians(-33)}).direction, radians(68), 1e-9);
+  for (const double yaw : {-15, 5, 25, 33})
+    EXPECT_NEAR(plan(5, 1, {0, 0, radians(yaw)}).direction, radians(35 - yaw), 1e-9);
+  route = plan(5, 1, {0, 0, radians(33)});
+  EXPECT_FALSE(route.looks);
+  EXPECT_TRUE(route.reaches_target);
+  planner_.reset();
+  EXPECT_TRUE(plan(5, 1).looks);
+  EXPECT_NEAR(plan(-5, 0.1, {0, 0, radians(170)}).direction, radians(-35), 1e-9);  // its heading was found only now
+  planner_.reset();
+  EXPECT_TRUE(plan(5, 1).looks);
+  int plans = 1;  // one that does not turn sets off all the same
+  while (plans < 1000 && plan(5, 1).looks)
+    ++plans;
+  EXPECT_EQ(plans, 80);
+}
+
 TEST_F(RouteTest, TheDirectionIsTheVehiclesOwn) {
   see([](double, double) { return false; });
   EXPECT_NEAR(plan(0, 5).direction, radians(90), radians(5));
