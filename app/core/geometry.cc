@@ -27,9 +27,7 @@ GridGeometry grid_geometry(const GridConfig& grid) {
 }
 
 RollingMapParams rolling_map_params(const VehicleConfig& config, const RectifiedGeometry& camera) {
-  // The topmost rows are seldom matched: their windows reach beyond the image.
-  constexpr double kUnmatchedRows = 8;
-  const double above = std::atan((camera.cy - kUnmatchedRows) / camera.focal_px);
+  const double above = std::atan((camera.cy - DepthView::kUnmatchedRows) / camera.focal_px);
   RollingMapParams p;
   p.size_m = config.map.size_m;
   p.keep_s = config.map.keep_s;
@@ -45,7 +43,18 @@ RollingMapParams rolling_map_params(const VehicleConfig& config, const Rectified
               .yaw = config.camera.yaw_deg * kDegree,
               .angle = std::clamp(above - config.camera.pitch_deg * kDegree, -1.5, 1.5)};
   p.view = std::min(std::atan(camera.width / (2 * camera.focal_px)), 1.5);
-  p.depth_sigma = config.prune.disparity_sigma_px / (camera.focal_px * camera.baseline_m);
+  p.row_m = 1 / (camera.focal_px * config.camera.height_m);
+  p.sight = {.focal_px = camera.focal_px,
+             .baseline_m = camera.baseline_m,
+             .center_u = camera.cx_left,
+             .center_v = camera.cy,
+             .height_m = config.camera.height_m,
+             .pitch = config.camera.pitch_deg * kDegree,
+             .roll = config.camera.roll_deg * kDegree,
+             .yaw = p.camera.yaw,
+             .forward_m = config.camera.forward_m,
+             .left_m = config.camera.left_m,
+             .depth_sigma = config.prune.disparity_sigma_px / (camera.focal_px * camera.baseline_m)};
   return p;
 }
 

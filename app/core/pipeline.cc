@@ -50,7 +50,7 @@ MotionWatchParams motion_watch_params(const VehicleConfig& config, const Rectifi
           .yaw = map.camera.yaw,
           .view = std::atan(camera.width / (2 * camera.focal_px)),
           .blind_m = blind_zone_m(config, camera),
-          .depth_sigma = map.depth_sigma};
+          .depth_sigma = map.sight.depth_sigma};
 }
 
 bool routes(const VehicleConfig& config) {
@@ -185,6 +185,8 @@ Pipeline::Pipeline(const VehicleConfig& config, const StereoCalibration& calibra
   prune_model_ = mount_model_;
   ground_range16_ = disparity_of_pitch16(config, camera_, config.prune.ground_range_deg);
   ground_rate16_ = disparity_of_pitch16(config, camera_, config.prune.ground_rate_deg);
+  floor_scatter16_ = static_cast<std::int32_t>(std::lround(config.prune.disparity_sigma_px * kDisparityScale));
+  floor_widening_ = std::llround(config.prune.sigma_factor * (1 << kDisparityToQ16));
   require(build_score_table(b.maps[0].geometry, score_geometry(config, camera_), b.thresholds), "score");
   if (rolls_) {
     require(rolling_map_.configure(rolling_map_params(config, camera_), b.maps[0].geometry, b.rolling), "map");
@@ -279,6 +281,9 @@ Status Pipeline::find_ground(FrameResult& result) {
   ground_offset16_ = offset;
   result.ground_offset16 = offset;
   prune_model_ = shift_floor(mount_model_, std::int64_t{offset} << kDisparityToQ16);
+  const std::int32_t scatter = ground_scatter(residuals[0], offset, pixels);
+  if (scatter > floor_scatter16_)
+    prune_model_ = widen_floor(prune_model_, (scatter - floor_scatter16_) * floor_widening_);
   return status;
 }
 
@@ -317,7 +322,7 @@ Status Pipeline::remember(const PlanInput& input, FrameResult& result) {
   result.map = result.grid.type;
   result.movers = {};
   if (!rolls_ || !input.pose) return Status::ok;
-  const Status added = rolling_map_.add(result.grid, *input.pose);
+  const Status added = rolling_map_.add(result.grid, *input.pose, result.disparity);
   if (added != Status::ok) return added;
   const Status watched = traffic_->watch.add(result.grid, *input.pose);
   if (watched != Status::ok) return watched;

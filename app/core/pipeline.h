@@ -131,6 +131,8 @@ class Pipeline {
   PruneModel prune_model_;  // the mount's, with the floor where this frame shows it
   std::int32_t ground_range16_ = 0;
   std::int32_t ground_rate16_ = 0;
+  std::int32_t floor_scatter16_ = 0;             // that the model knows of
+  std::int64_t floor_widening_ = 0;              // Q16 px for each 1/16 px beyond
   std::optional<std::int32_t> ground_offset16_;  // of the last frame
   RollingMap rolling_map_;
   std::unique_ptr<RoutePlanner> route_planner_;  // null where nothing searches for a route

@@ -17,7 +17,7 @@ bool usable(const RollingMapParams& p) {
          p.deceleration_mps2 > 0 && std::isfinite(p.deceleration_mps2) && in(p.radius_m, 1e2) && p.far_hits >= 1 &&
          p.far_hits <= RollingMap::kBelieved && std::isfinite(p.camera.height_m) &&
          std::isfinite(p.camera.forward_m) && std::isfinite(p.camera.left_m) && std::isfinite(p.camera.yaw) &&
-         std::abs(p.camera.angle) <= 1.5 && in(p.view, 1.5) && in(p.depth_sigma, 1e2);
+         std::abs(p.camera.angle) <= 1.5 && in(p.view, 1.5) && in(p.row_m, 1e2) && in(p.sight.focal_px, 1e6);
 }
 
 }  // namespace
@@ -36,6 +36,7 @@ Status RollingMap::configure(const RollingMapParams& params, const GridGeometry&
   if (memory.evidence.size() != cells || memory.height.size() != cells || memory.seen.size() != cells)
     return Status::size_mismatch;
   params_ = params;
+  depth_view_ = DepthView(params.sight);
   geometry_ = geometry;
   memory_ = memory;
   side_ = side;
@@ -118,12 +119,29 @@ bool RollingMap::sees_height(std::size_t i, double forward, double left) const {
   return edge_m >= memory_.height[i] / 1000.0 + kEdgeMarginM;
 }
 
-void RollingMap::see_free(std::size_t i, double forward, double left) {
+// What an obstacle cell loses whose floor is seen.
+int RollingMap::cleared(std::size_t i, double forward, double left, ImageView<const std::int16_t> disparity) const {
+  const int height_mm = memory_.height[i];
+  const bool looks = params_.sight.focal_px > 0 && disparity.data != nullptr && height_mm >= kHangingMm;
+  if (!looks) return sees_height(i, forward, left) ? weight(forward, left, kCleared, kClearedFar) : 0;
+  switch (depth_view_.at(disparity, forward, left, height_mm / 1000.0, cell_m_)) {
+    case Shown::behind:
+      return weight(forward, left, kCleared, kClearedFar);
+    case Shown::nothing:
+      return kClearedFar;
+    case Shown::outside:
+    case Shown::thing:
+      break;
+  }
+  return 0;
+}
+
+void RollingMap::see_free(std::size_t i, double forward, double left, ImageView<const std::int16_t> disparity) {
   std::uint8_t& evidence = memory_.evidence[i];
   if (evidence > kFree) {
-    if (!sees_height(i, forward, left)) return;
-    evidence =
-        static_cast<std::uint8_t>(std::max<int>(kFree, evidence - weight(forward, left, kCleared, kClearedFar)));
+    const int less = cleared(i, forward, left, disparity);
+    if (less == 0) return;
+    evidence = static_cast<std::uint8_t>(std::max<int>(kFree, evidence - less));
   } else {
     evidence = kFree;
   }
@@ -142,44 +160,47 @@ bool RollingMap::looks_at(double forward, double left) const {
   return ahead > 0 && ahead * ahead > view_cos_ * view_cos_ * (x * x + y * y);
 }
 
-void RollingMap::clear_seen_free(const NavGrid& frame, const Sight& sight) {
+// Whether the frame knows anything behind a free cell, where a window over the border of what can be matched would end; a thing before
+// that hides what lies there.
+bool RollingMap::floor_goes_on(const NavGrid& frame, int row, int col) const {
+  const double forward = (row + 0.5) * cell_m_ - params_.camera.forward_m;
+  const double left = (geometry_.cols / 2.0 - col - 0.5) * cell_m_ - params_.camera.left_m;
+  const double squared = forward * forward + left * left;
+  const double range = std::sqrt(squared);
+  const int reach = static_cast<int>(std::ceil(kBorderRows * params_.row_m * squared / cell_m_));
+  if (reach == 0 || reach > kFarBorder) return true;  // far away it matters little
+  for (int k = 1; k <= reach + 1; ++k) {
+    const int r = static_cast<int>(std::lround(row + k * forward / range));
+    const int c = static_cast<int>(std::lround(col - k * left / range));
+    if (r < 0 || r >= geometry_.rows || c < 0 || c >= geometry_.cols) return true;
+    const std::uint8_t type = frame.type.at(c, r);
+    if (type == kCellObstacle || (type == kCellUnoccupied && k >= reach)) return true;
+  }
+  return false;
+}
+
+void RollingMap::clear_seen_free(const NavGrid& frame, const Sight& sight,
+                                 ImageView<const std::int16_t> disparity) {
   visit_below(sight, [&](std::size_t i, std::int64_t row, std::int64_t column) {
     const auto c = static_cast<int>(column >> kFraction);
     const auto r = static_cast<int>(row >> kFraction);
     const std::uint8_t type = frame.type.at(c, r);
-    if (type == kCellUnoccupied) {
-      see_free(i, cells_of(row) * cell_m_, (sight.half - cells_of(column)) * cell_m_);
+    if (type == kCellUnoccupied && floor_goes_on(frame, r, c)) {
+      see_free(i, cells_of(row) * cell_m_, (sight.half - cells_of(column)) * cell_m_, disparity);
     } else if (memory_.evidence[i] != kFree) {
       return;
     } else if (type == kCellObstacle) {
-      if (!is_smear(frame, r, c)) memory_.evidence[i] = 0;
+      memory_.evidence[i] = 0;
     } else if (params_.view > 0 && looks_at(cells_of(row) * cell_m_, (sight.half - cells_of(column)) * cell_m_)) {
       if (++memory_.height[i] >= kDoubts) memory_.evidence[i] = 0;
     }
   });
 }
 
-bool RollingMap::is_smear(const NavGrid& frame, int row, int col) const {
-  const double forward = (row + 0.5) * cell_m_ - params_.camera.forward_m;
-  const double left = (geometry_.cols / 2.0 - col - 0.5) * cell_m_ - params_.camera.left_m;
-  const double squared = forward * forward + left * left;
-  const int steps = static_cast<int>(std::min<double>(kStreak, 2 * params_.depth_sigma * squared / cell_m_));
-  const double range = std::sqrt(squared);
-  const std::uint32_t count = frame.count.at(col, row);
-  if (steps == 0 || count == 0) return false;  // a drop-off has no points
-  for (int k = -steps; k <= steps; ++k) {
-    const int r = static_cast<int>(std::lround(row + k * forward / range));
-    const int c = static_cast<int>(std::lround(col - k * left / range));
-    if (r < 0 || r >= geometry_.rows || c < 0 || c >= geometry_.cols) continue;
-    if (frame.type.at(c, r) == kCellObstacle && frame.count.at(c, r) / 2 > count) return true;
-  }
-  return false;
-}
-
 void RollingMap::add_obstacles(const NavGrid& frame, const Sight& sight) {
   for (int r = 0; r < geometry_.rows; ++r) {
     for (int c = 0; c < geometry_.cols; ++c) {
-      if (frame.type.at(c, r) != kCellObstacle || is_smear(frame, r, c)) continue;
+      if (frame.type.at(c, r) != kCellObstacle) continue;
       const std::int64_t x = cell_of(sight.x(r + 0.5, c + 0.5));
       const std::int64_t y = cell_of(sight.y(r + 0.5, c + 0.5));
       if (!holds(x, y)) continue;
@@ -221,7 +242,7 @@ void RollingMap::stand_here(const Sight& sight) {
   }
 }
 
-Status RollingMap::add(const NavGrid& frame, const MapPose& at) {
+Status RollingMap::add(const NavGrid& frame, const MapPose& at, ImageView<const std::int16_t> disparity) {
   if (side_ == 0 || !frame_fits(frame, geometry_) || !is_finite(at, cell_m_)) return Status::bad_argument;
   const Sight sight(geometry_, at.pose, cell_m_);
   const std::int64_t x = cell_of(sight.east) - side_ / 2;
@@ -241,7 +262,7 @@ Status RollingMap::add(const NavGrid& frame, const MapPose& at) {
   now_ = std::max(now_, static_cast<std::uint32_t>(std::max<std::int64_t>(0, at.time_ns - first_ns_) / kTickNs));
   near_m_ = params_.near_m + speed * params_.latency_s + speed * speed / (2 * params_.deceleration_mps2);
   roll(x, y);
-  clear_seen_free(frame, sight);
+  clear_seen_free(frame, sight, disparity);
   add_obstacles(frame, sight);
   stand_here(sight);
   forget_old();

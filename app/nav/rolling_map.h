@@ -4,15 +4,17 @@
 // Evidence. A frame's obstacle cell adds to the world cell that holds its centre: kBelieved within near_m plus the braking
 // distance, beyond that less with distance, at least kBelieved / far_hits. A cell with kBelieved is an obstacle, with less it is
 // unknown. A world cell whose centre lies in an unoccupied cell of the frame loses kCleared at once, or less from far away, and
-// is unoccupied when nothing is left. Far away the error of the depth smears a thing along the line of sight, over the more cells the
-// farther it is; of such a streak, 2 sigma to either side, only cells with at least half the points of the densest add anything. Unknown cells of a frame change nothing: what the camera does not see (blind zone, beside,
+// is unoccupied when nothing is left. Unknown cells of a frame change nothing: what the camera does not see (blind zone, beside,
 // behind) stays for keep_s, an obstacle for keep_s for each kBelieved of its evidence, and what is within blind_m for as long as the
 // vehicle is there.
 // Free ground near by that the camera looks at and does not see in kDoubts frames in a row is unknown again: floor that a matcher went
 // on with into a wall that shows nothing is seen from far away only.
+// Floor that goes on into unknown cells within kBorderRows of the image does not count there: a matcher's window reaches across the
+// border of what it can match, so that floor seems to go on into a wall that shows nothing.
 // Floor seen below something does not clear it: an obstacle loses evidence only where the camera's upper edge, as far away as the
 // cell is, lies above the greatest mean height that the cell was seen with. So a bar or a table top that has left the image at
-// the top stays.
+// the top stays. What is higher than kHangingMm must also not be seen any more where it was (depth_view.h): a board shows few pixels
+// and much floor behind and below them. Where there is nothing to be seen it loses less.
 // What is an obstacle below the vehicle, kSunk cells or more within its radius, cannot be there and is forgotten; what is at its edge
 // may touch it and stays. Unknown ground below it stays unknown: it says nothing about the way on.
 #pragma once
@@ -21,6 +23,7 @@
 #include <cstdint>
 #include <span>
 
+#include "app/nav/depth_view.h"
 #include "app/nav/way_point.h"
 #include "kernels/base/image_view.h"
 #include "kernels/base/nav_grid.h"
@@ -54,8 +57,9 @@ struct RollingMapParams {
   double radius_m = 0.35;          // the vehicle's
   UpperEdge camera;
   double view = 0;  // half of the camera's field of view, rad, within 1.5; 0: free ground is never doubted
-  double depth_sigma =
-      0;  // standard deviation of a depth at 1 m, which grows with its square: sigma_d / (f B), m; 0: no streaks
+  double row_m =
+      0;  // of floor that one image row covers at 1 m, which grows with the square: 1 / (f H), m; 0: all floor counts
+  DepthViewParams sight;  // focal_px 0: none
 };
 
 // One of each for every cell, rolling_map_side() squared.
@@ -82,7 +86,9 @@ class RollingMap {
   static constexpr int kDoubts = 5;             // frames in a row
   static constexpr double kDoubtM = 1.2;        // how far beyond blind_m
   static constexpr double kEdgeMarginM = 0.05;  // of the upper edge above a remembered height
-  static constexpr int kStreak = 6;             // cells to either side, at most
+  static constexpr int kBorderRows = 5;
+  static constexpr int kFarBorder = 6;  // cells: where those rows cover more, any floor counts
+  static constexpr int kHangingMm = 300;
   static constexpr std::int64_t kTickNs = 10'000'000;
   static constexpr std::uint32_t kSweepTicks = 50;  // what is old is looked for so often
 
@@ -91,9 +97,9 @@ class RollingMap {
   Status configure(const RollingMapParams& params, const GridGeometry& geometry, const RollingMapMemory& memory);
   void reset();
 
-  // Takes a frame in: type, count and height_sum are read. Poses in order of time. bad_argument: not of the geometry, or a pose
-  // that is not finite or beyond 10^8 cells; the map is then as before.
-  Status add(const NavGrid& frame, const MapPose& at);
+  // Takes a frame in: type, count and height_sum are read; disparity: that the frame was made from, empty where there is none. Poses in
+  // order of time. bad_argument: not of the geometry, or a pose that is not finite or beyond 10^8 cells; the map is then as before.
+  Status add(const NavGrid& frame, const MapPose& at, ImageView<const std::int16_t> disparity = {});
 
   // The map as seen from the pose of the last add(): cells of CellType, forward half-plane. Every believed obstacle marks the
   // cell that holds its centre, and so do up to kThickness cells to its east, west, north and south that were never seen: a face
@@ -116,12 +122,13 @@ class RollingMap {
   std::size_t index(std::int64_t x, std::int64_t y) const;  // of a cell that the square holds
   void forget_old();
   void roll(std::int64_t x, std::int64_t y);
-  void clear_seen_free(const NavGrid& frame, const Sight& sight);
-  void see_free(std::size_t i, double forward, double left);
+  void clear_seen_free(const NavGrid& frame, const Sight& sight, ImageView<const std::int16_t> disparity);
+  void see_free(std::size_t i, double forward, double left, ImageView<const std::int16_t> disparity);
+  int cleared(std::size_t i, double forward, double left, ImageView<const std::int16_t> disparity) const;
+  bool floor_goes_on(const NavGrid& frame, int row, int col) const;
   bool looks_at(double forward, double left) const;
   bool sees_height(std::size_t i, double forward, double left) const;
   void add_obstacles(const NavGrid& frame, const Sight& sight);
-  bool is_smear(const NavGrid& frame, int row, int col) const;
   void stand_here(const Sight& sight);
   Run run_of(const Sight& sight, std::int64_t y) const;
   template <class Visit>
@@ -129,6 +136,7 @@ class RollingMap {
   int weight(double forward, double left, int near, int far) const;
 
   RollingMapParams params_;
+  DepthView depth_view_{DepthViewParams{}};
   GridGeometry geometry_;
   RollingMapMemory memory_;
   int side_ = 0;

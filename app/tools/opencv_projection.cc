@@ -34,8 +34,9 @@ class CloudBinner {
         tolerance_(static_cast<float>(g.floor_tolerance_m)),
         mount_forward_(static_cast<float>(g.forward_m)),
         mount_left_(static_cast<float>(g.left_m)) {
-    const double sigma = std::hypot(g.disparity_sigma_px, g.focal_px * g.baseline_m * g.pitch_sigma / g.height_m);
-    noise_per_depth_ = static_cast<float>(g.sigma_factor * sigma * g.height_m / (g.focal_px * g.baseline_m));
+    // k s, with what the pipeline added to it for this image.
+    const double noise_px = static_cast<double>(model.floor_absolute.constant - model.floor.constant) / 65536.0;
+    noise_per_depth_ = static_cast<float>(noise_px * g.height_m / (g.focal_px * g.baseline_m));
     const double n[3] = {std::cos(g.pitch) * std::sin(g.roll), std::cos(g.pitch) * std::cos(g.roll),
                          std::sin(g.pitch)};
     const double ahead[3] = {-std::sin(g.pitch) * std::sin(g.roll), -std::sin(g.pitch) * std::cos(g.roll),

@@ -40,4 +40,10 @@ Status ground_residuals_simd(const PruneModel& mount, ImageView<const std::int16
 // image.
 std::int32_t ground_offset(const GroundHistogram& histogram, std::int32_t range16, std::int64_t pixels);
 
+// How far the floor's own residuals scatter about `offset16` (of ground_offset), 1/16 px: half the width at half the height of their
+// pile, on the narrower side (walls and things lie on the one, drop-offs on the other), as the standard deviation of a normal
+// distribution of that width. At most kGroundScatterMost; 0 where there is no pile of kGroundMinImagePercent of the image.
+std::int32_t ground_scatter(const GroundHistogram& histogram, std::int32_t offset16, std::int64_t pixels);
+inline constexpr int kGroundScatterMost = 24;
+
 }  // namespace lakshya

@@ -54,6 +54,29 @@ Status ground_residuals_ref(const PruneModel& mount, ImageView<const std::int16_
   return Status::ok;
 }
 
+std::int32_t ground_scatter(const GroundHistogram& histogram, std::int32_t offset16, std::int64_t pixels) {
+  const int middle = std::clamp(offset16, -kGroundReach + kGroundWindow, kGroundReach - kGroundWindow);
+  const Window whole = window_at(histogram, middle);
+  if (whole.count == 0 || whole.count * 100 < pixels * kGroundMinImagePercent) return 0;
+  // Three bins: fewer jump, more are wider than a sharp pile.
+  const auto height = [&](int center) {
+    std::int64_t sum = 0;
+    for (int r = std::max(center - 1, -kGroundReach); r <= std::min(center + 1, kGroundReach); ++r)
+      sum += histogram[bin(r)];
+    return sum;
+  };
+  std::int64_t top = 0;
+  for (int r = middle - kGroundWindow; r <= middle + kGroundWindow; ++r)
+    top = std::max(top, height(r));
+  // A normal distribution is 1.18 standard deviations wide there.
+  constexpr int kWidthPercent = 118;
+  constexpr int kWidest = kGroundScatterMost * kWidthPercent / 100;
+  int half = 0;
+  while (half < kWidest && 2 * height(middle - half) > top && 2 * height(middle + half) > top)
+    ++half;
+  return (100 * half + kWidthPercent / 2) / kWidthPercent;
+}
+
 std::int32_t ground_offset(const GroundHistogram& histogram, std::int32_t range16, std::int64_t pixels) {
   const int range = std::clamp(range16, 0, kGroundReach);
   Window best;

@@ -87,6 +87,10 @@ Status build_prune_model(const PruneGeometry& geometry, std::span<std::int32_t> 
 // makes it (kernels/ground). Directions of reprojection stay the mount's.
 PruneModel shift_floor(const PruneModel& mount, std::int64_t offset);
 
+// The same model with `by` (Q16 px, >= 0) added to k s, on both sides of the floor: where its disparity scatters more than sigma_d says
+// (kernels/ground).
+PruneModel widen_floor(const PruneModel& model, std::int64_t by);
+
 // Body frame, millimetres, origin below the turning centre.
 struct ObstaclePoint {
   std::int32_t forward_mm = 0;

@@ -121,4 +121,11 @@ PruneModel shift_floor(const PruneModel& mount, std::int64_t offset) {
   return m;
 }
 
+PruneModel widen_floor(const PruneModel& model, std::int64_t by) {
+  PruneModel m = model;
+  m.drop_absolute.constant -= by;
+  m.floor_absolute.constant += by;
+  return m;
+}
+
 }  // namespace lakshya

@@ -14,6 +14,8 @@
 //   its mean height is at least 2 h_min, or count >= floor_count (noise lifts a little of the floor)
 // and a drop-off only if the below_counts about it add up to kSureDrops n_below and to more than the floor_counts. Otherwise the cell is
 // unoccupied with floor_count >= n_floor, and unknown without.
+// What is smeared is none [+]: the error of a depth draws a thing out along the line of sight, over the more cells the farther it is. An
+// obstacle with less than half the points of another one within 2 sigma_z of it on that line, kLongestStreak cells at most, is unknown.
 #pragma once
 
 #include <cstdint>
@@ -24,12 +26,16 @@
 
 namespace lakshya {
 
-// Least counts of one cell.
+// Least counts of one cell, and the line of sight there.
 struct CellThresholds {
   std::uint32_t points = 1;
   std::uint32_t floor = 1;
   std::uint32_t below = 1;
+  std::int8_t per_row = 0;  // of the direction away from the camera, 1/64 cell per cell
+  std::int8_t per_col = 0;
+  std::uint16_t streak = 0;  // cells to either side that a depth's error reaches
 };
+static_assert(sizeof(CellThresholds) == 16, "score_simd loads four words a cell");
 
 // Metres, radians and pixels; camera mount as in prune.h.
 struct ScoreGeometry {
@@ -59,6 +65,7 @@ Status score_simd(std::span<const CellThresholds> thresholds, std::int32_t min_h
 
 inline constexpr std::uint32_t kSurePoints = 5;
 inline constexpr std::uint32_t kSureDrops = 3;
+inline constexpr int kLongestStreak = 6;
 
 // What both refuse.
 Status check_score_arguments(std::span<const CellThresholds> thresholds, std::int32_t min_height_mm,

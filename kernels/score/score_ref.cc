@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "kernels/base/integer.h"
 #include "kernels/base/units.h"
 #include "kernels/grid_bin/grid_bin.h"
 #include "kernels/score/score.h"
@@ -49,6 +50,35 @@ bool stands_alone(const CellThresholds& least, std::int32_t min_height_mm, const
          about.below <= about.floor;
 }
 
+// An obstacle by points that lies on the streak of another one.
+bool is_smeared(const CellThresholds& least, const NavGrid& grid, int col, int row) {
+  const std::uint32_t count = grid.count.at(col, row);
+  if (least.streak == 0 || count == 0) return false;  // a drop-off has no points
+  for (int k = -static_cast<int>(least.streak); k <= static_cast<int>(least.streak); ++k) {
+    const int r = row + static_cast<int>(floor_divide(2 * k * least.per_row + 64, 128));
+    const int c = col + static_cast<int>(floor_divide(2 * k * least.per_col + 64, 128));
+    if (r < 0 || r >= grid.geometry.rows || c < 0 || c >= grid.geometry.cols) continue;
+    if (grid.type.at(c, r) == kCellObstacle && grid.count.at(c, r) / 2 > count) return true;
+  }
+  return false;
+}
+
+// Calls check(thresholds, col, row, type) for the obstacle cells.
+template <class Check>
+void visit_obstacles(std::span<const CellThresholds> thresholds, const NavGrid& grid, Check&& check) {
+  const auto cols = static_cast<std::size_t>(grid.geometry.cols);
+  for (int row = 0; row < grid.geometry.rows; ++row) {
+    std::uint8_t* const types = grid.type.row(row);
+    std::uint8_t* const end = types + cols;
+    for (std::uint8_t* type = types; type < end; ++type) {
+      type = static_cast<std::uint8_t*>(std::memchr(type, kCellObstacle, static_cast<std::size_t>(end - type)));
+      if (type == nullptr) break;
+      const auto col = static_cast<std::size_t>(type - types);
+      check(thresholds[static_cast<std::size_t>(row) * cols + col], static_cast<int>(col), row, *type);
+    }
+  }
+}
+
 }  // namespace
 
 Status check_score_arguments(std::span<const CellThresholds> thresholds, std::int32_t min_height_mm,
@@ -78,20 +108,13 @@ void score_cells_ref(std::span<const CellThresholds> thresholds, std::int32_t mi
 }
 
 void check_weak_cells(std::span<const CellThresholds> thresholds, std::int32_t min_height_mm, const NavGrid& grid) {
-  const auto cols = static_cast<std::size_t>(grid.geometry.cols);
-  for (int row = 0; row < grid.geometry.rows; ++row) {
-    std::uint8_t* const types = grid.type.row(row);
-    std::uint8_t* const end = types + cols;
-    for (std::uint8_t* type = types; type < end; ++type) {
-      type = static_cast<std::uint8_t*>(std::memchr(type, kCellObstacle, static_cast<std::size_t>(end - type)));
-      if (type == nullptr) break;
-      const auto col = static_cast<std::size_t>(type - types);
-      const CellThresholds& least = thresholds[static_cast<std::size_t>(row) * cols + col];
-      const int u = static_cast<int>(col);
-      if (!stands_alone(least, min_height_mm, grid, u, row)) continue;
-      *type = grid.floor_count.at(u, row) >= least.floor ? kCellUnoccupied : kCellUnknown;
-    }
-  }
+  visit_obstacles(thresholds, grid, [&](const CellThresholds& least, int col, int row, std::uint8_t& type) {
+    if (!stands_alone(least, min_height_mm, grid, col, row)) return;
+    type = grid.floor_count.at(col, row) >= least.floor ? kCellUnoccupied : kCellUnknown;
+  });
+  visit_obstacles(thresholds, grid, [&](const CellThresholds& least, int col, int row, std::uint8_t& type) {
+    if (is_smeared(least, grid, col, row)) type = kCellUnknown;
+  });
 }
 
 Status score_ref(std::span<const CellThresholds> thresholds, std::int32_t min_height_mm, const NavGrid& grid) {

@@ -47,9 +47,9 @@ std::size_t score_vectors(const CellThresholds* thresholds, std::int32_t min_hei
   const auto cols = static_cast<std::size_t>(grid.geometry.cols);
   std::size_t col = 0;
   for (; col + lanes <= cols; col += lanes) {
-    V32 points, floor_least, below_least;
-    hn::LoadInterleaved3(d, reinterpret_cast<const std::uint32_t*>(thresholds + col), points, floor_least,
-                         below_least);
+    V32 points, floor_least, below_least, streak;
+    hn::LoadInterleaved4(d, reinterpret_cast<const std::uint32_t*>(thresholds + col), points, floor_least,
+                         below_least, streak);
     const auto count = hn::LoadU(d, grid.count.row(row) + col);
     const auto floor_count = hn::LoadU(d, grid.floor_count.row(row) + col);
     const auto below_count = hn::LoadU(d, grid.below_count.row(row) + col);

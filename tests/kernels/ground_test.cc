@@ -124,6 +124,52 @@ TEST(Ground, TheMeanOfTheWindowRoundsHalfUp) {
   EXPECT_EQ(ground_offset(mirrored, 64, 200), -4);
 }
 
+TEST(Ground, TheScatterOfTheFloorIsThatOfItsNoise) {
+  const Model mount(camera());
+  for (const double noise : {0.25, 0.5, 0.8, 1.2}) {
+    const GroundHistogram h = residuals(mount.prune, floor_and_wall(0, 8, noise));
+    EXPECT_NEAR(ground_scatter(h, 0, kPixels), 16 * noise, 2 + noise) << noise;
+  }
+  const GroundHistogram sharp = residuals(mount.prune, floor_and_wall(0, 8, 0));
+  EXPECT_LE(ground_scatter(sharp, 0, kPixels), 2);
+}
+
+TEST(Ground, WhatStandsOrLiesLowerIsNoScatter) {
+  const Model mount(camera());
+  std::vector<std::vector<std::int16_t>> image = floor_and_wall(0, 8, 0.3);
+  const std::int32_t alone = ground_scatter(residuals(mount.prune, image), 0, kPixels);
+  for (std::size_t v = 180; v < kHeight; ++v) {  // a box on a third of the width, a step down on another
+    for (std::size_t u = 0; u < kWidth / 3; ++u)
+      image[v][u] = static_cast<std::int16_t>(image[v][u] + 40);
+    for (std::size_t u = 2 * kWidth / 3; u < kWidth; ++u)
+      image[v][u] = static_cast<std::int16_t>(image[v][u] - 2 * static_cast<int>(v - 170));
+  }
+  EXPECT_NEAR(ground_scatter(residuals(mount.prune, image), 0, kPixels), alone, 1);
+}
+
+TEST(Ground, NoPileHasNoScatterAndNoneIsWiderThanTheMost) {
+  EXPECT_EQ(ground_scatter(GroundHistogram{}, 0, 0), 0);
+  GroundHistogram h{};
+  h[kGroundReach + 5] = 99;
+  EXPECT_EQ(ground_scatter(h, 5, 5000), 0);
+  h.fill(100);
+  EXPECT_EQ(ground_scatter(h, 0, 5000), kGroundScatterMost);
+  EXPECT_EQ(ground_scatter(h, kGroundReach, 5000), ground_scatter(h, kGroundReach, 5000));
+}
+
+TEST(WidenFloor, MovesOnlyTheBoundsOfTheNoise) {
+  const Model model(camera());
+  const PruneModel wide = widen_floor(model.prune, 3 << 15);
+  EXPECT_EQ(wide.drop_absolute.at(7, 200), model.prune.drop_absolute.at(7, 200) - (3 << 15));
+  EXPECT_EQ(wide.floor_absolute.at(7, 200), model.prune.floor_absolute.at(7, 200) + (3 << 15));
+  EXPECT_EQ(wide.drop_relative.at(7, 200), model.prune.drop_relative.at(7, 200));
+  EXPECT_EQ(wide.floor.at(7, 200), model.prune.floor.at(7, 200));
+  EXPECT_EQ(wide.ceiling.at(7, 200), model.prune.ceiling.at(7, 200));
+  // d_f = 20 px, sigma 0.25 px, k 3: 22 px stand out of the floor, but not where it scatters.
+  EXPECT_EQ(classify_pixel(model.prune, 160, 200, 22 * 16 + 8), PixelClass::obstacle);
+  EXPECT_EQ(classify_pixel(wide, 160, 200, 22 * 16 + 8), PixelClass::floor);
+}
+
 TEST(ShiftFloor, EqualsAModelOfThatPitchForSmallAngles) {
   PruneGeometry g = camera();
   const Model level(g);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <random>
 #include <span>
@@ -113,6 +114,34 @@ TEST(Score, ASmallDropOffNeedsOthersBesideIt) {
   EXPECT_EQ(drop_type({0, 0, 0, 4}, {0, 0, 0, 7}), kCellUnknown);
   EXPECT_EQ(drop_type({0, 0, 5, 12}, {0, 0, 6, 0}), kCellObstacle);
   EXPECT_EQ(drop_type({0, 0, 5, 12}, {0, 0, 7, 0}), kCellUnoccupied);  // more floor than that about it
+}
+
+// A wall 5 m away, smeared over 1.5 m of depth: 0.27 m is the error of its depth there, and things before and behind the densest row are
+// none. A pole before it is one, however few its points.
+TEST(Score, OfAStreakOnlyTheDenseCellsAreObstacles) {
+  TestGrid g(60, 40);
+  const NavGrid v = g.view();
+  std::vector<CellThresholds> thresholds(60 * 40, CellThresholds{.points = 4, .per_row = 64, .streak = 5});
+  for (int row = 35; row < 60; ++row) {
+    for (int col = 10; col < 30; ++col) {
+      const int off = row - 50;
+      const auto n = static_cast<std::uint32_t>(200 * std::exp(-off * off / (2 * 2.7 * 2.7)));
+      v.count.at(col, row) = n;
+      v.height_sum.at(col, row) = std::int64_t{500} * n;
+    }
+  }
+  v.count.at(20, 30) = 20;
+  v.height_sum.at(20, 30) = 20 * 500;
+  EXPECT_EQ(score_ref(thresholds, 70, v), Status::ok);
+  EXPECT_EQ(v.type.at(20, 50), kCellObstacle);
+  EXPECT_EQ(v.type.at(20, 48), kCellObstacle);  // 0.76 of the densest
+  EXPECT_EQ(v.type.at(20, 45), kCellUnknown);   // 0.18 of it
+  EXPECT_EQ(v.type.at(20, 55), kCellUnknown);
+  EXPECT_EQ(v.type.at(20, 30), kCellObstacle);
+  // Seen along the rows there is no streak.
+  thresholds.assign(60 * 40, CellThresholds{.points = 4, .per_col = 64, .streak = 5});
+  EXPECT_EQ(score_ref(thresholds, 70, v), Status::ok);
+  EXPECT_EQ(v.type.at(20, 45), kCellObstacle);
 }
 
 ScoreGeometry level_camera() {

@@ -88,30 +88,6 @@ class RollingMapTest : public ::testing::Test {
   MapPose at;
 };
 
-// A wall 5 m away, smeared over 1.5 m of depth: 0.27 m is the error of its depth there.
-TEST_F(RollingMapTest, OfAStreakOnlyTheDenseCellsAreBelieved) {
-  params.depth_sigma = 0.011;
-  params.near_m = 10;
-  configure();
-  fill(kCellUnoccupied);
-  add();
-  for (int r = 43; r < 58; ++r) {
-    block(r, r + 1, 38, 42, kCellObstacle);
-    const int off = std::abs(r - 50);
-    for (int c = 38; c < 42; ++c)
-      count.view().at(c, r) = static_cast<std::uint32_t>(100 * std::exp(-off * off / (2 * 2.7 * 2.7)));
-  }
-  add();
-  EXPECT_EQ(cell(50, 40), kCellObstacle);
-  EXPECT_EQ(cell(48, 40), kCellObstacle);    // 0.76 of the densest
-  EXPECT_EQ(cell(45, 40), kCellUnoccupied);  // 0.18 of it: still as it was
-  EXPECT_EQ(cell(55, 40), kCellUnoccupied);
-  params.depth_sigma = 0;
-  configure();
-  add();
-  EXPECT_EQ(cell(45, 40), kCellObstacle);
-}
-
 // A matcher has gone on with the floor into a wall that shows nothing; nearer to it there is none.
 TEST_F(RollingMapTest, FreeGroundThatIsLookedAtAndNotSeenIsTakenBack) {
   params.view = radians(40);
@@ -128,6 +104,53 @@ TEST_F(RollingMapTest, FreeGroundThatIsLookedAtAndNotSeenIsTakenBack) {
   EXPECT_EQ(cell(14, 40), kCellUnoccupied);
   EXPECT_EQ(cell(25, 40), kCellUnoccupied);  // beyond 1.0 m and 1.2 m: too far away to say
   EXPECT_EQ(cell(15, 20), kCellUnoccupied);  // 52 degrees to the left: not in view
+}
+
+// Before a wall that shows nothing, 3 m away, floor seems to go on for the height of a window.
+TEST_F(RollingMapTest, FloorThatGoesOnIntoTheUnknownEndsSooner) {
+  params.row_m = 1 / (190 * 1.05);  // five rows: 0.22 m at 3 m
+  configure();
+  block(0, 30, 0, 80, kCellUnoccupied);
+  add();
+  EXPECT_EQ(cell(25, 40), kCellUnoccupied);
+  EXPECT_EQ(cell(29, 40), kCellUnknown);
+  EXPECT_EQ(cell(28, 40), kCellUnknown);
+  block(30, 31, 0, 80, kCellObstacle);  // one that can be seen
+  add();
+  EXPECT_EQ(cell(29, 40), kCellUnoccupied);
+}
+
+// The board of a shelf, 0.85 m high and 1.9 m away: floor is seen below it in every frame, and the board in a few rows of the image.
+TEST_F(RollingMapTest, ABoardThatIsStillInTheImageIsNotClearedByTheFloorBelow) {
+  constexpr double kFocalBaseline = 200 * 0.12;
+  params.camera.height_m = 1;
+  params.sight = {
+      .focal_px = 200, .baseline_m = 0.12, .center_u = 160, .center_v = 120, .height_m = 1, .depth_sigma = 0.01};
+  configure();
+  fill(kCellUnoccupied);
+  block(18, 20, 38, 42, kCellObstacle, 850);
+  add();
+  Image<std::int16_t> disparity{320, 240, static_cast<std::int16_t>(16 * kFocalBaseline / 5)};
+  for (int v = 133; v < 139; ++v) {
+    for (int u = 0; u < 320; ++u)
+      disparity.view().at(u, v) = static_cast<std::int16_t>(16 * kFocalBaseline / 1.9);
+  }
+  fill(kCellUnoccupied);
+  const auto see = [&] {
+    at.time_ns += kSecondNs / 10;
+    ASSERT_EQ(map.add(frame(), at, disparity.view()), Status::ok);
+    ASSERT_EQ(map.view(type.view(), shown.view()), Status::ok);
+  };
+  for (int k = 0; k < 20; ++k)
+    see();
+  EXPECT_EQ(cell(18, 40), kCellObstacle);
+  for (int v = 133; v < 139; ++v) {  // it has been taken away
+    for (int u = 0; u < 320; ++u)
+      disparity.view().at(u, v) = static_cast<std::int16_t>(16 * kFocalBaseline / 5);
+  }
+  for (int k = 0; k < 6; ++k)
+    see();
+  EXPECT_EQ(cell(18, 40), kCellUnoccupied);
 }
 
 TEST_F(RollingMapTest, FloorWithHolesStaysFree) {
