@@ -20,23 +20,24 @@ constexpr int kBehindShare = 25;
 DepthView::DepthView(const DepthViewParams& params) : params_(params) {
   const double sp = std::sin(params.pitch), cp = std::cos(params.pitch);
   const double sr = std::sin(params.roll), cr = std::cos(params.roll);
+  const double sy = std::sin(params.yaw), cy = std::cos(params.yaw);
   const double ahead[3] = {-sp * sr, -sp * cr, cp};
   const double right[3] = {cr, -sr, 0};
   const double down[3] = {cp * sr, cp * cr, sp};
-  std::copy_n(ahead, 3, ahead_);
-  std::copy_n(right, 3, right_);
-  std::copy_n(down, 3, down_);
+  for (int i = 0; i < 3; ++i) {
+    forward_[i] = cy * ahead[i] + sy * right[i];
+    left_[i] = sy * ahead[i] - cy * right[i];
+    down_[i] = down[i];
+  }
 }
 
 DepthView::Pixel DepthView::project(double forward_m, double left_m, double height_m) const {
   const double x = forward_m - params_.forward_m;
   const double y = left_m - params_.left_m;
-  const double ahead = std::cos(params_.yaw) * x + std::sin(params_.yaw) * y;
-  const double right = std::sin(params_.yaw) * x - std::cos(params_.yaw) * y;
   const double down = params_.height_m - height_m;
   double p[3];
   for (int i = 0; i < 3; ++i)
-    p[i] = ahead * ahead_[i] + right * right_[i] + down * down_[i];
+    p[i] = x * forward_[i] + y * left_[i] + down * down_[i];
   if (p[2] < kNearest) return {};
   return {params_.center_u + params_.focal_px * p[0] / p[2], params_.center_v + params_.focal_px * p[1] / p[2],
           p[2]};

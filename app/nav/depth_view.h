@@ -52,8 +52,8 @@ class DepthView {
   Pixel project(double forward_m, double left_m, double height_m) const;
 
   DepthViewParams params_;
-  double ahead_[3] = {};  // body axes in the camera frame
-  double right_[3] = {};
+  double forward_[3] = {};  // body axes in the camera frame
+  double left_[3] = {};
   double down_[3] = {};
 };
 
