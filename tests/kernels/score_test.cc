@@ -165,6 +165,20 @@ CellThresholds threshold(const ScoreGeometry& g, int row, int col) {
   return table[static_cast<std::size_t>(row) * 200 + static_cast<std::size_t>(col)];
 }
 
+TEST(ScoreTable, TheLineOfSightLeadsAwayFromTheCamera) {
+  // 4.95 m ahead: sigma_z = 0.153 m, 2 sigma_z = 3.06 cells.
+  const CellThresholds ahead = threshold(level_camera(), 49, 99);
+  EXPECT_EQ(ahead.per_row, 64);
+  EXPECT_EQ(ahead.per_col, -1);
+  EXPECT_EQ(ahead.streak, 3);
+  // 4.95 m ahead and to the left, 7.0 m away: columns grow to the right.
+  const CellThresholds aside = threshold(level_camera(), 49, 50);
+  EXPECT_EQ(aside.per_row, 45);
+  EXPECT_EQ(aside.per_col, -45);
+  EXPECT_EQ(aside.streak, 6);
+  EXPECT_EQ(threshold(level_camera(), 199, 99).streak, kLongestStreak);
+}
+
 TEST(ScoreTable, FollowsTheFormula) {
   // Row 19: z = 1.95 m; sigma_z = 0.02377 m, cell / (2.5 sigma_z) = 1.68 -> 1.
   // points: 0.2 * 160000 * 0.1 * 0.15 / 3.8025 = 126.2; floor: 0.1 * 160000 * 0.01 * 0.5 / 7.4149 = 10.79.
