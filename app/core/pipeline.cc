@@ -40,7 +40,8 @@ RollingMapMemory take_rolling_map(const VehicleConfig& config, Arena& arena) {
   if (!rolls(config)) return {};
   const int side = rolling_map_side(grid_geometry(config.grid), config.map.size_m);
   const std::size_t cells = size(side) * size(side);
-  return {arena.take<std::uint8_t>(cells), arena.take<std::int16_t>(cells), arena.take<std::uint32_t>(cells)};
+  return {arena.take<std::uint8_t>(cells), arena.take<std::int16_t>(cells), arena.take<std::uint32_t>(cells),
+          arena.take<std::uint8_t>(cells)};
 }
 
 MotionWatchParams motion_watch_params(const VehicleConfig& config, const RectifiedGeometry& camera) {

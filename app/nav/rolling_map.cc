@@ -33,7 +33,8 @@ Status RollingMap::configure(const RollingMapParams& params, const GridGeometry&
   const int side = rolling_map_side(geometry, params.size_m);
   if (side == 0 || geometry.rows <= 0 || geometry.cols <= 0 || !usable(params)) return Status::bad_argument;
   const std::size_t cells = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-  if (memory.evidence.size() != cells || memory.height.size() != cells || memory.seen.size() != cells)
+  if (memory.evidence.size() != cells || memory.height.size() != cells || memory.seen.size() != cells ||
+      memory.floor.size() != cells)
     return Status::size_mismatch;
   params_ = params;
   depth_view_ = DepthView(params.sight);
@@ -57,6 +58,7 @@ void RollingMap::reset() {
   std::ranges::fill(memory_.evidence, std::uint8_t{0});
   std::ranges::fill(memory_.height, std::int16_t{0});
   std::ranges::fill(memory_.seen, 0U);
+  std::ranges::fill(memory_.floor, std::uint8_t{0});
   started_ = false;
 }
 
@@ -100,11 +102,11 @@ void RollingMap::roll(std::int64_t x, std::int64_t y) {
   const Run rows = entering(y, up);
   for (std::int64_t v = rows.begin; v < rows.end; ++v) {
     for (std::int64_t u = x; u < x + side_; ++u)
-      memory_.evidence[index(u, v)] = 0;
+      forget(index(u, v));
   }
   for (std::int64_t u = columns.begin; u < columns.end; ++u) {
     for (std::int64_t v = y; v < y + side_; ++v)
-      memory_.evidence[index(u, v)] = 0;
+      forget(index(u, v));
   }
 }
 
@@ -126,7 +128,7 @@ int RollingMap::cleared(std::size_t i, double forward, double left, ImageView<co
   if (!looks) return sees_height(i, forward, left) ? weight(forward, left, kCleared, kClearedFar) : 0;
   switch (depth_view_.at(disparity, forward, left, height_mm / 1000.0, cell_m_)) {
     case Shown::behind:
-      return weight(forward, left, kCleared, kClearedFar);
+      return kCleared;
     case Shown::nothing:
       return kClearedFar;
     case Shown::outside:
@@ -138,6 +140,8 @@ int RollingMap::cleared(std::size_t i, double forward, double left, ImageView<co
 
 void RollingMap::see_free(std::size_t i, double forward, double left, ImageView<const std::int16_t> disparity) {
   std::uint8_t& evidence = memory_.evidence[i];
+  std::uint8_t& floor = memory_.floor[i];
+  floor = static_cast<std::uint8_t>(std::min(floor + kFreeCounts, kMostFree));
   if (evidence > kFree) {
     const int less = cleared(i, forward, left, disparity);
     if (less == 0) return;
@@ -147,6 +151,18 @@ void RollingMap::see_free(std::size_t i, double forward, double left, ImageView<
   }
   if (evidence == kFree) memory_.height[i] = 0;
   memory_.seen[i] = now_;
+}
+
+// Where no floor is seen, as in the blind zone, what stood high enough to be in view and is not there any more leaves unknown ground.
+void RollingMap::see_through(std::size_t i, double forward, double left, ImageView<const std::int16_t> disparity) {
+  const int height_mm = memory_.height[i];
+  if (params_.sight.focal_px <= 0 || disparity.data == nullptr || height_mm < kHangingMm) return;
+  if (depth_view_.at(disparity, forward, left, height_mm / 1000.0, cell_m_) != Shown::behind) return;
+  std::uint8_t& evidence = memory_.evidence[i];
+  evidence = static_cast<std::uint8_t>(std::max<int>(kFree, evidence - kCleared));
+  if (evidence > kFree) return;
+  evidence = 0;
+  memory_.height[i] = 0;
 }
 
 // Whether floor there would be in view, and near enough that it should be seen.
@@ -188,7 +204,8 @@ void RollingMap::clear_seen_free(const NavGrid& frame, const Sight& sight,
     if (type == kCellUnoccupied && floor_goes_on(frame, r, c)) {
       see_free(i, cells_of(row) * cell_m_, (sight.half - cells_of(column)) * cell_m_, disparity);
     } else if (memory_.evidence[i] != kFree) {
-      return;
+      if (type != kCellObstacle && memory_.evidence[i] > kFree)
+        see_through(i, cells_of(row) * cell_m_, (sight.half - cells_of(column)) * cell_m_, disparity);
     } else if (type == kCellObstacle) {
       memory_.evidence[i] = 0;
     } else if (params_.view > 0 && looks_at(cells_of(row) * cell_m_, (sight.half - cells_of(column)) * cell_m_)) {
@@ -208,8 +225,10 @@ void RollingMap::add_obstacles(const NavGrid& frame, const Sight& sight) {
       const int hit = weight((r + 0.5) * cell_m_, (sight.half - c - 0.5) * cell_m_, kBelieved,
                              (kBelieved + params_.far_hits - 1) / params_.far_hits);
       if (memory_.evidence[i] <= kFree) memory_.height[i] = 0;
+      memory_.floor[i] = static_cast<std::uint8_t>(std::max(memory_.floor[i] - 1, 0));
       const int before = std::max<int>(memory_.evidence[i], kFree);
-      memory_.evidence[i] = static_cast<std::uint8_t>(std::min(kFree + kMost, before + hit));
+      memory_.evidence[i] =
+          static_cast<std::uint8_t>(std::max(before, std::min(kFree + kMostHits * hit, before + hit)));
       memory_.seen[i] = now_;
       const std::uint32_t count = frame.count.at(c, r);
       if (count == 0) continue;  // a drop-off

@@ -2,11 +2,11 @@
 // vehicle moves; what leaves it is forgotten. Each cell holds integer evidence: nothing here depends on the number of threads.
 //
 // Evidence. A frame's obstacle cell adds to the world cell that holds its centre: kBelieved within near_m plus the braking
-// distance, beyond that less with distance, at least kBelieved / far_hits. A cell with kBelieved is an obstacle, with less it is
-// unknown. A world cell whose centre lies in an unoccupied cell of the frame loses kCleared at once, or less from far away, and
-// is unoccupied when nothing is left. Unknown cells of a frame change nothing: what the camera does not see (blind zone, beside,
-// behind) stays for keep_s, an obstacle for keep_s for each kBelieved of its evidence, and what is within blind_m for as long as the
-// vehicle is there.
+// distance, beyond that less with distance, at least kBelieved / far_hits, and up to kMostHits times that. A cell with kBelieved is
+// an obstacle, with less it is unknown. A world cell whose centre lies in an unoccupied cell of the frame loses kCleared at once, or
+// less from far away, and is unoccupied when nothing is left. Unknown cells of a frame change nothing: what the camera does not see
+// (blind zone, beside, behind) stays for keep_s, an obstacle for keep_s for each kBelieved of its evidence, and what is within blind_m
+// for as long as the vehicle is there.
 // Free ground near by that the camera looks at and does not see in kDoubts frames in a row is unknown again: floor that a matcher went
 // on with into a wall that shows nothing is seen from far away only.
 // Floor that goes on into unknown cells within kBorderRows of the image does not count there: a matcher's window reaches across the
@@ -14,7 +14,9 @@
 // Floor seen below something does not clear it: an obstacle loses evidence only where the camera's upper edge, as far away as the
 // cell is, lies above the greatest mean height that the cell was seen with. So a bar or a table top that has left the image at
 // the top stays. What is higher than kHangingMm must also not be seen any more where it was (depth_view.h): a board shows few pixels
-// and much floor behind and below them. Where there is nothing to be seen it loses less.
+// and much floor behind and below them. Where there is nothing to be seen it loses less. Where no floor is seen, as in the blind zone,
+// it loses kCleared while what lies behind it is seen, and leaves unknown ground: who stood right before the vehicle has gone.
+// What came to ground that was seen free before, was_free(), may go again: the planner doubts it first.
 // What is an obstacle below the vehicle, kSunk cells or more within its radius, cannot be there and is forgotten; what is at its edge
 // may touch it and stays. Unknown ground below it stays unknown: it says nothing about the way on.
 #pragma once
@@ -68,6 +70,7 @@ struct RollingMapMemory {
   std::span<std::int16_t>
       height;  // greatest mean height of the obstacle, mm; of free ground: frames that did not see it
   std::span<std::uint32_t> seen;  // when last seen, in units of kTickNs since the first frame
+  std::span<std::uint8_t> floor;  // frames that saw it free less those that saw an obstacle; saturates
 };
 
 inline constexpr int kRollingMapMaxSide = 4096;  // cells
@@ -78,7 +81,7 @@ int rolling_map_side(const GridGeometry& geometry, double size_m);
 class RollingMap {
  public:
   static constexpr int kBelieved = 12;
-  static constexpr int kMost = 36;  // evidence saturates here
+  static constexpr int kMostHits = 3;  // evidence saturates at what so many frames add
   static constexpr int kCleared = 6;
   static constexpr int kClearedFar = 2;
   static constexpr int kSunk = 2;
@@ -89,6 +92,9 @@ class RollingMap {
   static constexpr int kBorderRows = 5;
   static constexpr int kFarBorder = 6;  // cells: where those rows cover more, any floor counts
   static constexpr int kHangingMm = 300;
+  static constexpr int kFreeCounts = 2;  // a frame that sees floor, against one that sees an obstacle
+  static constexpr int kMostFree = 40;
+  static constexpr int kOftenFree = 6;
   static constexpr std::int64_t kTickNs = 10'000'000;
   static constexpr std::uint32_t kSweepTicks = 50;  // what is old is looked for so often
 
@@ -111,6 +117,11 @@ class RollingMap {
   // the square is unknown. Obstacles have something behind them as in view(). bad_argument: nothing was added yet.
   Status window(std::int64_t x, std::int64_t y, ImageView<std::uint8_t> type) const;
 
+  // Whether world cell (x, y) was seen free so often that an obstacle there has probably come, and may go again. False outside.
+  bool was_free(std::int64_t x, std::int64_t y) const {
+    return holds(x, y) && memory_.floor[index(x, y)] >= kOftenFree;
+  }
+
  private:
   static constexpr std::uint8_t kFree = 1;  // evidence
 
@@ -120,10 +131,12 @@ class RollingMap {
 
   bool holds(std::int64_t x, std::int64_t y) const;
   std::size_t index(std::int64_t x, std::int64_t y) const;  // of a cell that the square holds
+  void forget(std::size_t i) { memory_.evidence[i] = memory_.floor[i] = 0; }
   void forget_old();
   void roll(std::int64_t x, std::int64_t y);
   void clear_seen_free(const NavGrid& frame, const Sight& sight, ImageView<const std::int16_t> disparity);
   void see_free(std::size_t i, double forward, double left, ImageView<const std::int16_t> disparity);
+  void see_through(std::size_t i, double forward, double left, ImageView<const std::int16_t> disparity);
   int cleared(std::size_t i, double forward, double left, ImageView<const std::int16_t> disparity) const;
   bool floor_goes_on(const NavGrid& frame, int row, int col) const;
   bool looks_at(double forward, double left) const;

@@ -118,7 +118,8 @@ class DiscDrive {
     evidence_.assign(side * side, 0);
     height_.assign(side * side, 0);
     seen_.assign(side * side, 0);
-    ASSERT_EQ(map_.configure(map_params, geometry_, {evidence_, height_, seen_}), Status::ok);
+    floor_.assign(side * side, 0);
+    ASSERT_EQ(map_.configure(map_params, geometry_, {evidence_, height_, seen_, floor_}), Status::ok);
     ASSERT_EQ(planner_.configure(params, vehicle, geometry_, table_), Status::ok);
     prepare_view();
     state_ = {};
@@ -251,6 +252,7 @@ class DiscDrive {
   std::vector<std::uint8_t> evidence_;
   std::vector<std::int16_t> height_;
   std::vector<std::uint32_t> seen_;
+  std::vector<std::uint8_t> floor_;
   std::vector<PolarEntry> table_ = std::vector<PolarEntry>(4800);
   RollingMap map_;
   Planner planner_;

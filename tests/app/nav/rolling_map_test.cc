@@ -5,153 +5,15 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <vector>
 
-#include "app/core/image.h"
-#include "app/nav/sectors.h"
-#include "kernels/base/units.h"
 #include "tests/support/count_allocations.h"
+#include "tests/support/rolling_map_world.h"
 
 namespace lakshya {
 namespace {
 
-constexpr std::int64_t kSecondNs = 1'000'000'000;
-
-// A rolling map of 16 m x 16 m and the frames it is fed with: 60 x 80 cells of 0.1 m, 6 m ahead and 4 m to each side.
-class RollingMapTest : public ::testing::Test {
- protected:
-  RollingMapTest() {
-    params.size_m = 16;
-    params.near_m = 2;
-    params.camera.angle = radians(20);
-  }
-
-  void configure() {
-    const auto side = static_cast<std::size_t>(rolling_map_side(geometry, params.size_m));
-    evidence.assign(side * side, 0);
-    height.assign(side * side, 0);
-    seen.assign(side * side, 0);
-    ASSERT_EQ(map.configure(params, geometry, {evidence, height, seen}), Status::ok);
-  }
-
-  void fill(CellType what) { block(0, geometry.rows, 0, geometry.cols, what); }
-  void block(int row_begin, int row_end, int col_begin, int col_end, CellType what, int height_mm = 300) {
-    for (int r = row_begin; r < row_end; ++r) {
-      for (int c = col_begin; c < col_end; ++c) {
-        type.view().at(c, r) = what;
-        count.view().at(c, r) = what == kCellObstacle ? 10 : 0;
-        height_sum.view().at(c, r) = what == kCellObstacle ? 10 * height_mm : 0;
-      }
-    }
-  }
-
-  NavGrid frame() {
-    NavGrid grid;
-    grid.geometry = geometry;
-    grid.count = count.view();
-    grid.height_sum = height_sum.view();
-    grid.type = type.view();
-    return grid;
-  }
-
-  void add(double seconds = 0.1) {
-    at.time_ns += static_cast<std::int64_t>(seconds * static_cast<double>(kSecondNs));
-    ASSERT_EQ(map.add(frame(), at), Status::ok);
-    ASSERT_EQ(map.view(type.view(), shown.view()), Status::ok);
-  }
-  std::uint8_t cell(int row, int col) { return shown.view().at(col, row); }
-
-  // Obstacle cells shown within `reach` cells of a place given in metres ahead and to the left.
-  int obstacles_near(double forward, double left, double reach) {
-    int found = 0;
-    for (int r = 0; r < geometry.rows; ++r) {
-      for (int c = 0; c < geometry.cols; ++c) {
-        const double df = (r + 0.5) - forward * 10;
-        const double dl = (geometry.cols / 2.0 - c - 0.5) - left * 10;
-        found += cell(r, c) == kCellObstacle && std::hypot(df, dl) <= reach ? 1 : 0;
-      }
-    }
-    return found;
-  }
-  int obstacles() { return obstacles_near(0, 0, 1e9); }
-
-  GridGeometry geometry{.rows = 60, .cols = 80, .cell_mm = 100};
-  Image<std::uint8_t> type{80, 60, kCellUnknown};
-  Image<std::uint8_t> shown{80, 60, kCellUnknown};
-  Image<std::uint32_t> count{80, 60, 0};
-  Image<std::int64_t> height_sum{80, 60, 0};
-  std::vector<std::uint8_t> evidence;
-  std::vector<std::int16_t> height;
-  std::vector<std::uint32_t> seen;
-  RollingMapParams params;
-  RollingMap map;
-  MapPose at;
-};
-
-// A matcher has gone on with the floor into a wall that shows nothing; nearer to it there is none.
-TEST_F(RollingMapTest, FreeGroundThatIsLookedAtAndNotSeenIsTakenBack) {
-  params.view = radians(40);
-  configure();
-  fill(kCellUnoccupied);
-  add();
-  block(15, 60, 0, 80, kCellUnknown);
-  for (int i = 1; i < RollingMap::kDoubts; ++i)
-    add();
-  EXPECT_EQ(cell(17, 40), kCellUnoccupied);
-  add();
-  EXPECT_EQ(cell(17, 40), kCellUnknown);
-  EXPECT_EQ(cell(18, 33), kCellUnknown);
-  EXPECT_EQ(cell(14, 40), kCellUnoccupied);
-  EXPECT_EQ(cell(25, 40), kCellUnoccupied);  // beyond 1.0 m and 1.2 m: too far away to say
-  EXPECT_EQ(cell(15, 20), kCellUnoccupied);  // 52 degrees to the left: not in view
-}
-
-// Before a wall that shows nothing, 3 m away, floor seems to go on for the height of a window.
-TEST_F(RollingMapTest, FloorThatGoesOnIntoTheUnknownEndsSooner) {
-  params.row_m = 1 / (190 * 1.05);  // five rows: 0.22 m at 3 m
-  configure();
-  block(0, 30, 0, 80, kCellUnoccupied);
-  add();
-  EXPECT_EQ(cell(25, 40), kCellUnoccupied);
-  EXPECT_EQ(cell(29, 40), kCellUnknown);
-  EXPECT_EQ(cell(28, 40), kCellUnknown);
-  block(30, 31, 0, 80, kCellObstacle);  // one that can be seen
-  add();
-  EXPECT_EQ(cell(29, 40), kCellUnoccupied);
-}
-
-// The board of a shelf, 0.85 m high and 1.9 m away: floor is seen below it in every frame, and the board in a few rows of the image.
-TEST_F(RollingMapTest, ABoardThatIsStillInTheImageIsNotClearedByTheFloorBelow) {
-  constexpr double kFocalBaseline = 200 * 0.12;
-  params.camera.height_m = 1;
-  params.sight = {
-      .focal_px = 200, .baseline_m = 0.12, .center_u = 160, .center_v = 120, .height_m = 1, .depth_sigma = 0.01};
-  configure();
-  fill(kCellUnoccupied);
-  block(18, 20, 38, 42, kCellObstacle, 850);
-  add();
-  Image<std::int16_t> disparity{320, 240, static_cast<std::int16_t>(16 * kFocalBaseline / 5)};
-  for (int v = 133; v < 139; ++v) {
-    for (int u = 0; u < 320; ++u)
-      disparity.view().at(u, v) = static_cast<std::int16_t>(16 * kFocalBaseline / 1.9);
-  }
-  fill(kCellUnoccupied);
-  const auto see = [&] {
-    at.time_ns += kSecondNs / 10;
-    ASSERT_EQ(map.add(frame(), at, disparity.view()), Status::ok);
-    ASSERT_EQ(map.view(type.view(), shown.view()), Status::ok);
-  };
-  for (int k = 0; k < 20; ++k)
-    see();
-  EXPECT_EQ(cell(18, 40), kCellObstacle);
-  for (int v = 133; v < 139; ++v) {  // it has been taken away
-    for (int u = 0; u < 320; ++u)
-      disparity.view().at(u, v) = static_cast<std::int16_t>(16 * kFocalBaseline / 5);
-  }
-  for (int k = 0; k < 6; ++k)
-    see();
-  EXPECT_EQ(cell(18, 40), kCellUnoccupied);
-}
+using RollingMapTest = test::RollingMapWorld;
+using test::kSecondNs;
 
 TEST_F(RollingMapTest, FloorWithHolesStaysFree) {
   params.view = radians(40);
@@ -478,7 +340,7 @@ TEST_F(RollingMapTest, Refusals) {
   EXPECT_EQ(map.configure(params, geometry, {}), Status::size_mismatch);
   configure();
   EXPECT_EQ(map.view(type.view(), shown.view()), Status::bad_argument);
-  const RollingMapMemory memory{evidence, height, seen};
+  const RollingMapMemory memory{evidence, height, seen, floor};
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refuses = [&](auto change) {
     RollingMapParams p = params;

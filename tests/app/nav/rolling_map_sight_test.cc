@@ -1,0 +1,161 @@
+// What the rolling map takes back, and what it does not, by what the camera shows.
+#include <gtest/gtest.h>
+
+#include "app/nav/rolling_map.h"
+#include "tests/support/rolling_map_world.h"
+
+namespace lakshya {
+namespace {
+
+using RollingMapSightTest = test::RollingMapWorld;
+using test::kSecondNs;
+
+// A matcher has gone on with the floor into a wall that shows nothing; nearer to it there is none.
+TEST_F(RollingMapSightTest, FreeGroundThatIsLookedAtAndNotSeenIsTakenBack) {
+  params.view = radians(40);
+  configure();
+  fill(kCellUnoccupied);
+  add();
+  block(15, 60, 0, 80, kCellUnknown);
+  for (int i = 1; i < RollingMap::kDoubts; ++i)
+    add();
+  EXPECT_EQ(cell(17, 40), kCellUnoccupied);
+  add();
+  EXPECT_EQ(cell(17, 40), kCellUnknown);
+  EXPECT_EQ(cell(18, 33), kCellUnknown);
+  EXPECT_EQ(cell(14, 40), kCellUnoccupied);
+  EXPECT_EQ(cell(25, 40), kCellUnoccupied);  // beyond 1.0 m and 1.2 m: too far away to say
+  EXPECT_EQ(cell(15, 20), kCellUnoccupied);  // 52 degrees to the left: not in view
+}
+
+// Before a wall that shows nothing, 3 m away, floor seems to go on for the height of a window.
+TEST_F(RollingMapSightTest, FloorThatGoesOnIntoTheUnknownEndsSooner) {
+  params.row_m = 1 / (190 * 1.05);  // five rows: 0.22 m at 3 m
+  configure();
+  block(0, 30, 0, 80, kCellUnoccupied);
+  add();
+  EXPECT_EQ(cell(25, 40), kCellUnoccupied);
+  EXPECT_EQ(cell(29, 40), kCellUnknown);
+  EXPECT_EQ(cell(28, 40), kCellUnknown);
+  block(30, 31, 0, 80, kCellObstacle);  // one that can be seen
+  add();
+  EXPECT_EQ(cell(29, 40), kCellUnoccupied);
+}
+
+// The board of a shelf, 0.85 m high and 1.9 m away: floor is seen below it in every frame, and the board in a few rows of the image.
+TEST_F(RollingMapSightTest, ABoardThatIsStillInTheImageIsNotClearedByTheFloorBelow) {
+  constexpr double kFocalBaseline = 200 * 0.12;
+  params.camera.height_m = 1;
+  params.sight = {
+      .focal_px = 200, .baseline_m = 0.12, .center_u = 160, .center_v = 120, .height_m = 1, .depth_sigma = 0.01};
+  configure();
+  fill(kCellUnoccupied);
+  block(18, 20, 38, 42, kCellObstacle, 850);
+  add();
+  Image<std::int16_t> disparity{320, 240, static_cast<std::int16_t>(16 * kFocalBaseline / 5)};
+  for (int v = 133; v < 139; ++v) {
+    for (int u = 0; u < 320; ++u)
+      disparity.view().at(u, v) = static_cast<std::int16_t>(16 * kFocalBaseline / 1.9);
+  }
+  fill(kCellUnoccupied);
+  const auto see = [&] {
+    at.time_ns += kSecondNs / 10;
+    ASSERT_EQ(map.add(frame(), at, disparity.view()), Status::ok);
+    ASSERT_EQ(map.view(type.view(), shown.view()), Status::ok);
+  };
+  for (int k = 0; k < 20; ++k)
+    see();
+  EXPECT_EQ(cell(18, 40), kCellObstacle);
+  for (int v = 133; v < 139; ++v) {  // it has been taken away
+    for (int u = 0; u < 320; ++u)
+      disparity.view().at(u, v) = static_cast<std::int16_t>(16 * kFocalBaseline / 5);
+  }
+  for (int k = 0; k < 6; ++k)
+    see();
+  EXPECT_EQ(cell(18, 40), kCellUnoccupied);
+}
+
+// A person of 0.7 m mean height has stood 0.8 m before the vehicle, where it sees no floor, and has gone on.
+class RollingMapThroughTest : public test::RollingMapWorld {
+ protected:
+  static constexpr double kFocalBaseline = 200 * 0.12;
+
+  RollingMapThroughTest() {
+    params.camera.height_m = 1;
+    params.sight = {
+        .focal_px = 200, .baseline_m = 0.12, .center_u = 160, .center_v = 120, .height_m = 1, .depth_sigma = 0.01};
+  }
+  void stand_before_it(int height_mm) {
+    configure();
+    fill(kCellUnknown);
+    block(7, 9, 38, 42, kCellObstacle, height_mm);
+    add();
+    fill(kCellUnknown);
+  }
+  void see(double depth_m) {
+    Image<std::int16_t> disparity{320, 240, static_cast<std::int16_t>(16 * kFocalBaseline / depth_m)};
+    for (int k = 0; k < 6; ++k) {
+      at.time_ns += kSecondNs / 10;
+      ASSERT_EQ(map.add(frame(), at, disparity.view()), Status::ok);
+    }
+    ASSERT_EQ(map.view(type.view(), shown.view()), Status::ok);
+  }
+};
+
+TEST_F(RollingMapThroughTest, WhatIsSeenThroughLeavesUnknownGround) {
+  stand_before_it(700);
+  see(4);
+  EXPECT_EQ(cell(8, 40), kCellUnknown);
+}
+
+TEST_F(RollingMapThroughTest, WhatIsStillThereStays) {
+  stand_before_it(700);
+  see(0.8);
+  EXPECT_EQ(cell(8, 40), kCellObstacle);
+}
+
+TEST_F(RollingMapThroughTest, WhatIsTooLowToBeSeenFromSoNearStays) {
+  stand_before_it(250);
+  see(4);
+  EXPECT_EQ(cell(8, 40), kCellObstacle);
+}
+
+TEST_F(RollingMapSightTest, WhatCameToFreeGroundIsKnownAsSuch) {
+  configure();
+  fill(kCellUnoccupied);
+  block(30, 32, 0, 80, kCellUnknown);
+  for (int k = 0; k < 5; ++k)
+    add();
+  fill(kCellUnoccupied);
+  block(20, 22, 30, 50, kCellObstacle);
+  block(30, 32, 0, 80, kCellObstacle);
+  add();
+  EXPECT_TRUE(map.was_free(21, 0));   // 2.1 m ahead
+  EXPECT_FALSE(map.was_free(31, 0));  // a wall that was always there
+  EXPECT_FALSE(map.was_free(31, 1000));
+  for (int k = 0; k < RollingMap::kMostFree; ++k)
+    add();
+  EXPECT_FALSE(map.was_free(21, 0));  // it stands
+}
+
+// Near by, three frames add up to as much as there is; far away less is believed for good.
+TEST_F(RollingMapSightTest, WhatWasSeenFromFarAwayOnlyIsForgottenSooner) {
+  params.keep_s = 2;
+  configure();
+  fill(kCellUnknown);
+  block(15, 16, 40, 41, kCellObstacle);
+  block(55, 56, 40, 41, kCellObstacle);
+  for (int k = 0; k < 10; ++k)
+    add();
+  EXPECT_EQ(cell(15, 40), kCellObstacle);
+  EXPECT_EQ(cell(55, 40), kCellObstacle);
+  fill(kCellUnknown);
+  add(4);
+  EXPECT_EQ(cell(15, 40), kCellObstacle);
+  EXPECT_EQ(cell(55, 40), kCellUnknown);
+  add(3);
+  EXPECT_EQ(cell(15, 40), kCellUnknown);
+}
+
+}  // namespace
+}  // namespace lakshya
