@@ -12,12 +12,13 @@
 namespace lakshya {
 namespace {
 
-constexpr int kTight = 60;            // what a cell at the margin costs more than a free one, tenths
+constexpr int kTight = 120;           // what a cell at the margin costs more than a free one, tenths
 constexpr double kCutCells = 0.5;     // by which a straight line may come nearer to obstacles than the way does
 constexpr double kEasyCells = 1.5;    // ... it need not keep more than this from what is closed
 constexpr int kStopShare = 82;        // of the squared distance that a way keeps: nearer the vehicle stops, percent
 constexpr double kUnsureCells = 1.5;  // by which floor may seem to go on into a wall that shows nothing
 constexpr double kSeenBehind = 3;     // cells behind the blind zone in which its floor may begin to show
+constexpr int kMostStray = 2;  // ... of floor within it, from far away, which say nothing about what is before them
 
 bool in(double value, double least, double most) {
   return value >= least && value <= most;
@@ -63,20 +64,22 @@ bool RoutePlanner::straight_is_free(double x, double y, double to_x, double to_y
   return true;
 }
 
-// Where the unknown cells begin that no known one follows on a line until right behind the blind zone; infinity if there are none: floor
-// that begins where it can be seen began before, too, and where none is seen there may be a wall that shows nothing to match.
-double RoutePlanner::unseen_from(double x, double y, double dx, double dy) const {
-  const double end = params_.blind_m / cell_m_ + kSeenBehind;
+// Where the unknown cells begin that no floor follows on a line until right behind the blind zone; infinity if there are none: floor that
+// begins where it can be seen began before, too, and where none is seen there may be a wall that shows nothing to match. An obstacle
+// counts as floor does where the floor before it is seen, and beside the way: the way keeps off it.
+double RoutePlanner::unseen_from(double x, double y, double dx, double dy, bool beside) const {
+  const double blind = params_.blind_m / cell_m_;
   double unknown = std::numeric_limits<double>::infinity();
-  for (int k = 1; k / 2.0 <= end; ++k) {
+  int floor = 0;  // half cells in a row
+  for (int k = 1; k / 2.0 <= blind + kSeenBehind; ++k) {
     const int u = static_cast<int>(std::floor(x + k * dx));
     const int v = static_cast<int>(std::floor(y + k * dy));
     if (!inside(u, v)) return unknown;
-    if (memory_.type[static_cast<std::size_t>(index(u, v))] != kCellUnknown) {
-      unknown = std::numeric_limits<double>::infinity();
-    } else {
-      unknown = std::min(unknown, k / 2.0);
-    }
+    const std::uint8_t type = memory_.type[static_cast<std::size_t>(index(u, v))];
+    const bool known = type == kCellObstacle && (beside || floor > 0);
+    floor = type == kCellUnoccupied ? floor + 1 : 0;
+    if (known || floor > (k / 2.0 > blind ? 0 : 2 * kMostStray)) unknown = std::numeric_limits<double>::infinity();
+    if (type == kCellUnknown) unknown = std::min(unknown, k / 2.0);
   }
   return unknown;
 }
@@ -93,7 +96,7 @@ ClearDistance RoutePlanner::clear_along(double x, double y, double angle) const 
   double unseen = std::numeric_limits<double>::infinity();
   for (const double side : {-1.0, 0.0, 1.0}) {
     const double off = 2 * side * params_.radius_m / cell_m_;
-    unseen = std::min(unseen, unseen_from(x - off * dy, y + off * dx, dx, dy));
+    unseen = std::min(unseen, unseen_from(x - off * dy, y + off * dx, dx, dy, side != 0));
   }
   for (int k = 1;; ++k) {
     const int u = static_cast<int>(std::floor(x + k * dx));
@@ -150,10 +153,11 @@ Status RoutePlanner::plan(const RollingMap& map, const Pose& pose, double target
   search();
   int end = choose_end(goal_x, goal_y);
   if (reaches(end, goal_x, goal_y)) {
-    looked_at_count_ = looks_ = doubts_ = 0;
+    looked_at_count_ = looks_ = doubts_ = plans_ = 0;
   } else {
+    ++plans_;
     const int nearest = end;
-    end = look_again(pose, x, y, goal_x, goal_y, route);
+    end = look_again(map, pose, x, y, goal_x, goal_y, route);
     if (route.looks) {
       count_ = 0;
       return Status::ok;

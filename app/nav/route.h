@@ -5,8 +5,10 @@
 // to the middle of a gap), unknown cells cost more than free ones, and unknown cells right before the camera, which it should have
 // seen long ago, still more. The way of the plan before costs less than others: of two that are about as good the vehicle keeps to
 // the one that it has begun. A target beyond the window is sought by the way to the border that leaves least to go.
-// Where no way leads to the target, the cheapest one through closed cells shows which of them to doubt: the vehicle goes to where it
-// has them in view from farther than its blind zone, turns towards them, and looks at the next place if they stay closed.
+// Where no way leads to the target, the cheapest one through closed cells shows which of them to doubt: first those that are closed by
+// what came to ground that was free before, then gaps, then any. The vehicle goes to where it has them in view from farther than its
+// blind zone and turns towards them. If they stay closed it leaves them for a while, looks at the next place if there is one, and comes
+// back: somebody may have stood there.
 // Before it sets off the vehicle turns first_look to either side: what stands beside it at the start, and beyond the border of the view,
 // would never come into view, and its side would sweep there.
 // The direction is that of the farthest point of the way, up to reach_m ahead, that a straight line reaches without coming nearer
@@ -73,7 +75,7 @@ class RoutePlanner {
   // bad_argument: a parameter that is not finite or out of range; size_mismatch: the memory. Keeps the memory.
   Status configure(const RouteParams& params, std::int32_t cell_mm, const RouteMemory& memory);
   // Forgets the way of the plan before, and what was looked at.
-  void reset() { count_ = looked_at_count_ = looks_ = doubts_ = first_looks_ = first_plans_ = 0; }
+  void reset() { count_ = looked_at_count_ = looks_ = doubts_ = first_looks_ = first_plans_ = plans_ = 0; }
 
   // The map as of its last add(), made at `pose`; target in the world frame, metres. bad_argument: not finite.
   // turning: the angle that the vehicle will turn further even if it is told otherwise, rad.
@@ -84,6 +86,12 @@ class RoutePlanner {
   struct Point {
     std::int64_t x = 0;  // world cells
     std::int64_t y = 0;
+  };
+  // A closed place that was looked at in vain.
+  struct LookedAt {
+    Point place;
+    int times = 0;
+    int until = 0;  // the plan from which on it is doubted again
   };
   // A window's cell, or a place in it in cells.
   static int index(int x, int y) { return y * kRouteSide + x; }
@@ -98,20 +106,24 @@ class RoutePlanner {
   int choose_end(double goal_x, double goal_y) const;
   void follow_back(int end);
   bool reaches(int end, double goal_x, double goal_y) const;
-  int look_again(const Pose& pose, double x, double y, double goal_x, double goal_y, Route& route);
+  int look_again(const RollingMap& map, const Pose& pose, double x, double y, double goal_x, double goal_y,
+                 Route& route);
+  enum class Through { comers, gaps, all };
+  void open_where_ground_was_free(const RollingMap& map);
   void open_closed_cells(bool all);
-  void close_again();
-  int place_on_the_way(bool through_obstacles, double goal_x, double goal_y);
-  int doubtful_place(double goal_x, double goal_y);
+  void close_again(Through what);
+  int place_on_the_way(const RollingMap& map, Through what, double goal_x, double goal_y);
+  int doubtful_place(const RollingMap& map, double goal_x, double goal_y);
   int view_point(int place) const;
   bool sees(double x, double y, double place_x, double place_y) const;
+  bool is_same_place(const Point& place, double u, double v) const;
   bool has_been_looked_at(double u, double v) const;
   bool look_round(const Pose& pose, double target_east_m, double target_north_m, Route& route);
   bool is_closed(const Point& place) const;
-  bool choose_doubt(double goal_x, double goal_y);
+  bool choose_doubt(const RollingMap& map, double goal_x, double goal_y);
   void note_looked_at();
   bool straight_is_free(double x, double y, double to_x, double to_y, int least_distance2) const;
-  double unseen_from(double x, double y, double dx, double dy) const;
+  double unseen_from(double x, double y, double dx, double dy, bool beside) const;
   ClearDistance clear_along(double x, double y, double angle) const;
   void aim(const Pose& pose, double x, double y, Route& route) const;
 
@@ -127,10 +139,12 @@ class RoutePlanner {
   int start_ = 0;
   std::array<Point, kRouteMostPoints> points_{};  // of the last way, from the vehicle on
   int count_ = 0;
-  std::array<Point, kRouteLooks> looked_at_{};  // in vain
+  std::array<LookedAt, kRouteLooks> looked_at_{};
   int looked_at_count_ = 0;
+  int insists_ = 0;      // times up to which it looks once more at what it has looked at not long ago
   Point doubted_;        // the place that it goes to look at
   int doubts_ = 0;       // plans for which it still may; 0: none is doubted
+  int plans_ = 0;        // since a way led to the target
   int first_looks_ = 0;  // sides that it has looked to since reset()
   int first_plans_ = 0;  // ... and plans that it took so far
   double first_yaw_ = 0;

@@ -14,10 +14,11 @@ inline constexpr std::int32_t kRouteFar =
 inline constexpr int kRouteReach = 9;          // cells that distances to obstacles are known up to
 inline constexpr std::uint8_t kRouteShut =
     0x80;  // bit of a type: closed, and passed through only to find out which to doubt
-inline constexpr double kRouteNear = 5;    // cells from which on the target counts as reached
-inline constexpr int kRouteClosed = 0;     // factor of a cell that is none of the way
-inline constexpr int kRouteOpen = 10;      // ... of a free cell, tenths
-inline constexpr int kRouteStraight = 10;  // length of a step, tenths of a cell
+inline constexpr std::uint8_t kRouteCame = 0x40;  // ... an obstacle where the ground was free before
+inline constexpr double kRouteNear = 5;           // cells from which on the target counts as reached
+inline constexpr int kRouteClosed = 0;            // factor of a cell that is none of the way
+inline constexpr int kRouteOpen = 10;             // ... of a free cell, tenths
+inline constexpr int kRouteStraight = 10;         // length of a step, tenths of a cell
 inline constexpr int kRouteDiagonal = 14;
 
 struct RouteStep {

@@ -1,9 +1,11 @@
 // Where no way leads to the target: which closed place is most likely to be open after all, and where to look at it from.
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "app/nav/route_cells.h"
 #include "app/nav/sectors.h"
+#include "kernels/base/units.h"
 
 namespace lakshya {
 namespace {
@@ -17,24 +19,32 @@ constexpr int kNearly2 = 9;
 
 constexpr double kLeastWay = 12;  // cells between the vehicle that looks and the place
 constexpr double kMostWay = 18;
-constexpr double kArrived = 2;      // cells
-constexpr double kFaces = 0.25;     // rad
-constexpr double kTurned = 0.12;    // rad
-constexpr double kJump = 0.4;       // rad from plan to plan: the heading has only been found now
-constexpr int kFirstPlans = 80;     // at most, for both sides
-constexpr int kLooks = 8;           // plans for which it faces the place
-constexpr int kDoubtedFor = 100;    // plans after which it gives up going there
+constexpr double kArrived = 2;    // cells
+constexpr double kFaces = 0.25;   // rad
+constexpr double kTurned = 0.12;  // rad
+constexpr double kJump = 0.4;     // rad from plan to plan: the heading has only been found now
+constexpr int kFirstPlans = 80;   // at most, for both sides
+constexpr int kLooks = 8;         // plans for which it faces the place
+constexpr int kLeaves = 40;       // plans for which it leaves a place alone, for each time that it has looked at it
+constexpr int kInsists = 4;       // times that it looks at a gap before it looks at what is none
+constexpr int kDoubtedFor = 100;  // plans after which it gives up going there
 constexpr double kSamePlace = 10;   // cells
 constexpr double kPlaceItself = 6;  // cells before it that may hide it: they are what is doubted
 
 }  // namespace
 
+bool RoutePlanner::is_same_place(const Point& place, double u, double v) const {
+  const double du = static_cast<double>(place.x - x_begin_) - u;
+  const double dv = static_cast<double>(place.y - y_begin_) - v;
+  return du * du + dv * dv < kSamePlace * kSamePlace;
+}
+
+// ... not long ago, or too often.
 bool RoutePlanner::has_been_looked_at(double u, double v) const {
   for (int k = 0; k < looked_at_count_; ++k) {
-    const Point& p = looked_at_[static_cast<std::size_t>(k)];
-    const double du = static_cast<double>(p.x - x_begin_) - u;
-    const double dv = static_cast<double>(p.y - y_begin_) - v;
-    if (du * du + dv * dv < kSamePlace * kSamePlace) return true;
+    const LookedAt& was = looked_at_[static_cast<std::size_t>(k)];
+    const bool leaves = plans_ < was.until && was.times >= insists_;
+    if (leaves && is_same_place(was.place, u, v)) return true;
   }
   return false;
 }
@@ -51,17 +61,38 @@ void RoutePlanner::open_closed_cells(bool all) {
   }
 }
 
-void RoutePlanner::close_again() {
+// Lets the search through where nothing would be too near but for obstacles on ground that was free before.
+void RoutePlanner::open_where_ground_was_free(const RollingMap& map) {
+  for (int cell = 0; cell < kRouteCells; ++cell) {
+    std::uint8_t& type = memory_.type[static_cast<std::size_t>(cell)];
+    const int u = cell % kRouteSide;
+    const int v = cell / kRouteSide;
+    if (type != kCellObstacle || !map.was_free(x_begin_ + u, y_begin_ + v)) continue;
+    if (!has_been_looked_at(u, v)) type |= kRouteCame;
+  }
+  measure_distances();
   for (std::size_t i = 0; i < memory_.type.size(); ++i) {
-    if ((memory_.type[i] & kRouteShut) == 0) continue;
-    memory_.type[i] = static_cast<std::uint8_t>(memory_.type[i] & ~kRouteShut);
-    memory_.factor[i] = kRouteClosed;
+    if (memory_.factor[i] != kRouteClosed || memory_.distance2[i] < closed2_) continue;
+    memory_.type[i] |= kRouteShut;
+    memory_.factor[i] = kNearly;
   }
 }
 
+void RoutePlanner::close_again(Through what) {
+  for (std::size_t i = 0; i < memory_.type.size(); ++i) {
+    if ((memory_.type[i] & kRouteShut) != 0) memory_.factor[i] = kRouteClosed;
+    memory_.type[i] = static_cast<std::uint8_t>(memory_.type[i] & ~(kRouteShut | kRouteCame));
+  }
+  if (what == Through::comers) measure_distances();
+}
+
 // The first closed cell of the cheapest way that goes through closed cells; -1: none.
-int RoutePlanner::place_on_the_way(bool through_obstacles, double goal_x, double goal_y) {
-  open_closed_cells(through_obstacles);
+int RoutePlanner::place_on_the_way(const RollingMap& map, Through what, double goal_x, double goal_y) {
+  if (what == Through::comers) {
+    open_where_ground_was_free(map);
+  } else {
+    open_closed_cells(what == Through::all);
+  }
   search();
   const int end = choose_end(goal_x, goal_y);
   int place = -1;
@@ -70,19 +101,29 @@ int RoutePlanner::place_on_the_way(bool through_obstacles, double goal_x, double
       if ((memory_.type[static_cast<std::size_t>(cell)] & kRouteShut) != 0) place = cell;
     }
   }
-  close_again();
+  close_again(what);
   return place;
 }
 
-// The place to look at: a gap that was not looked at yet, else where the way is barred by least; when all was looked at, the same once
-// more. -1: none. Leaves the factors as they were, and the costs of the search from the vehicle through what is open.
-int RoutePlanner::doubtful_place(double goal_x, double goal_y) {
-  int place = place_on_the_way(false, goal_x, goal_y);
-  if (place < 0) place = place_on_the_way(true, goal_x, goal_y);
+// The place to look at: where something has come to ground that was free, or a gap, that it did not look at not long ago; else one at
+// which it did, for somebody may stand there who will go on; else where the way is barred by least. When all were looked at, the same
+// once more. -1: none. Leaves the factors as they were, and the costs of the search from the vehicle through what is open.
+int RoutePlanner::doubtful_place(const RollingMap& map, double goal_x, double goal_y) {
+  const auto find = [&](int insists, std::initializer_list<Through> ways) {
+    insists_ = insists;
+    int place = -1;
+    for (auto what = ways.begin(); place < 0 && what != ways.end(); ++what)
+      place = place_on_the_way(map, *what, goal_x, goal_y);
+    insists_ = 0;
+    return place;
+  };
+  int place = find(0, {Through::comers, Through::gaps});
+  if (place < 0) place = find(2 * kInsists, {Through::comers});
+  if (place < 0) place = find(kInsists, {Through::gaps});
+  if (place < 0) place = find(0, {Through::all});
   if (place < 0 && looked_at_count_ > 0) {
     looked_at_count_ = 0;
-    place = place_on_the_way(false, goal_x, goal_y);
-    if (place < 0) place = place_on_the_way(true, goal_x, goal_y);
+    place = find(0, {Through::comers, Through::gaps, Through::all});
   }
   search();
   return place;
@@ -118,10 +159,23 @@ int RoutePlanner::view_point(int place) const {
   return best;
 }
 
+// Somebody may have stood in the only gap: what is the best way but for one place is looked at again before all others have been, each
+// time later.
 void RoutePlanner::note_looked_at() {
   looks_ = doubts_ = 0;
-  if (looked_at_count_ == kRouteLooks) looked_at_count_ = 0;  // all once more
-  looked_at_[static_cast<std::size_t>(looked_at_count_++)] = doubted_;
+  const auto u = static_cast<double>(doubted_.x - x_begin_);
+  const auto v = static_cast<double>(doubted_.y - y_begin_);
+  int k = 0;
+  while (k < looked_at_count_ && !is_same_place(looked_at_[static_cast<std::size_t>(k)].place, u, v))
+    ++k;
+  if (k == looked_at_count_) {
+    if (k == kRouteLooks) k = looked_at_count_ = 0;  // all once more
+    looked_at_[static_cast<std::size_t>(k)] = {};
+    ++looked_at_count_;
+  }
+  LookedAt& now = looked_at_[static_cast<std::size_t>(k)];
+  now.place = doubted_;
+  now.until = plans_ + kLeaves * ++now.times;
 }
 
 bool RoutePlanner::is_closed(const Point& place) const {
@@ -132,12 +186,12 @@ bool RoutePlanner::is_closed(const Point& place) const {
 
 // The place that was chosen stays the one, while it is closed and not for ever: which way is the cheapest changes with every frame, and
 // the vehicle would turn to and fro between two of them.
-bool RoutePlanner::choose_doubt(double goal_x, double goal_y) {
+bool RoutePlanner::choose_doubt(const RollingMap& map, double goal_x, double goal_y) {
   if (doubts_ > 0 && is_closed(doubted_)) {
     if (--doubts_ > 0) return true;
     note_looked_at();
   }
-  const int place = doubtful_place(goal_x, goal_y);
+  const int place = doubtful_place(map, goal_x, goal_y);
   doubts_ = looks_ = 0;
   if (place < 0) return false;
   doubted_ = {x_begin_ + place % kRouteSide, y_begin_ + place / kRouteSide};
@@ -165,8 +219,9 @@ bool RoutePlanner::look_round(const Pose& pose, double target_east_m, double tar
   return true;
 }
 
-int RoutePlanner::look_again(const Pose& pose, double x, double y, double goal_x, double goal_y, Route& route) {
-  if (!choose_doubt(goal_x, goal_y)) return -1;
+int RoutePlanner::look_again(const RollingMap& map, const Pose& pose, double x, double y, double goal_x,
+                             double goal_y, Route& route) {
+  if (!choose_doubt(map, goal_x, goal_y)) return -1;
   const auto u = static_cast<int>(doubted_.x - x_begin_);
   const auto v = static_cast<int>(doubted_.y - y_begin_);
   const double dx = u + 0.5 - x;

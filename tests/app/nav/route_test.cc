@@ -27,7 +27,8 @@ class RouteTest : public ::testing::Test {
     evidence_.assign(side * side, 0);
     height_.assign(side * side, 0);
     seen_.assign(side * side, 0);
-    EXPECT_EQ(map_.configure(params_, geometry_, {evidence_, height_, seen_}), Status::ok);
+    floor_.assign(side * side, 0);
+    EXPECT_EQ(map_.configure(params_, geometry_, {evidence_, height_, seen_, floor_}), Status::ok);
     RouteMemory memory{bytes_[0], bytes_[1], bytes_[2], words_[0], words_[1], words_[2], bytes_[3]};
     EXPECT_EQ(planner_.configure(route_params_, geometry_.cell_mm, memory), Status::ok);
   }
@@ -76,6 +77,7 @@ class RouteTest : public ::testing::Test {
   std::vector<std::uint8_t> evidence_;
   std::vector<std::int16_t> height_;
   std::vector<std::uint32_t> seen_;
+  std::vector<std::uint8_t> floor_;
   Image<std::uint8_t> type_{140, 70};
   Image<std::uint32_t> count_{140, 70};
   Image<std::int64_t> height_sum_{140, 70};
@@ -112,6 +114,18 @@ TEST_F(RouteTest, WhereNoFloorIsSeenTheWayIsNotClear) {
   const Route stopped = plan(5, 0);
   EXPECT_LT(stopped.clear_m, 0.5);
   EXPECT_EQ(stopped.clear_end, ClearEnd::unknown);
+}
+
+// Before the vehicle nothing is known but what lies behind a wall that shows nothing to match: one cell of floor, and an obstacle.
+TEST_F(RouteTest, WhatIsSeenBehindTheUnknownDoesNotOpenIt) {
+  const auto behind = [](double x, double) { return x > 0.9 && x < 2; };
+  const auto unknown = [](double x, double y) {
+    return x > 0.3 && x < 0.9 && std::abs(y) < 2 && !(x > 0.5 && x < 0.6);
+  };
+  see(behind, unknown);
+  const ClearDistance from = {plan(0.3, 0).clear_m, plan(0.3, 0).clear_end};
+  EXPECT_LT(from.metres, 0.4);
+  EXPECT_EQ(from.end, ClearEnd::unknown);
 }
 
 // A room in two halves; the wall between them has two gaps, both narrower than the vehicle, at y = 0 the wider one.
@@ -152,6 +166,26 @@ TEST_F(RouteTest, WhatStaysClosedIsLeftForTheNextPlace) {
   for (int i = 0; i < 8; ++i)
     see([](double x, double y) { return divided_room(x, y) && !(std::abs(y) < 0.6 && std::abs(x) < 4); });
   EXPECT_TRUE(plan(3.5, 0).reaches_target);
+}
+
+// Somebody stands in the only door, where the floor was seen free before; beside him the wall has a hole that he would not fit through.
+TEST_F(RouteTest, ItLooksFirstAtWhatHasComeToFreeGround) {
+  const auto room = [](double x, double y) {
+    const bool outside = std::abs(x) > 4 || std::abs(y) > 3;
+    const bool gap = std::abs(y + 1.5) < 0.6 || std::abs(y - 0.5) < 0.3;
+    return outside || (x > 1.9 && x < 2.2 && !gap);
+  };
+  for (int i = 0; i < 3; ++i)
+    see(room);
+  EXPECT_TRUE(plan(3.5, 0).reaches_target);
+  see([&](double x, double y) { return room(x, y) || std::hypot(x - 2.0, y + 1.5) < 0.3; });
+  const Route route = plan(3.5, 0);
+  EXPECT_TRUE(route.looks);
+  EXPECT_LT(route.direction, radians(-25));
+  int looks = 0;  // it does not leave him for long, though there is another place to look at
+  for (int i = 0; i < 100; ++i)
+    looks += plan(3.5, 0).direction < radians(-25) ? 1 : 0;
+  EXPECT_GT(looks, 40);
 }
 
 // Which gap is the cheapest changes as the map does; the vehicle does not turn to and fro.
