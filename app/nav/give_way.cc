@@ -17,6 +17,7 @@ constexpr int kTurnRoundSteps = 9;
 constexpr double kUnsureMps = 0.15;  // who is out of view may be this much elsewhere
 constexpr double kMostUnsureM = 0.4;
 constexpr double kHurriedUnseenS = 0.3;  // who was not seen for so long is nobody to a vehicle in a hurry
+constexpr double kTurnedUnseenS = 0.3;   // who was not seen for so long may have turned round
 constexpr std::array<double, 4> kShares{1.0, 0.7, 0.45, 0.2};
 
 // A mover relative to the vehicle as it stands now.
@@ -39,6 +40,11 @@ Walker seen_from(const Pose& pose, const Mover& m) {
   w.vx = -pace * w.x / away;
   w.vy = -pace * w.y / away;
   return w;
+}
+
+// He who has turned round when he was last seen.
+Walker turned_round(const Walker& w, double unseen_s) {
+  return {w.x - 2 * w.vx * unseen_s, w.y - 2 * w.vy * unseen_s, -w.vx, -w.vy, w.radius_m};
 }
 
 class Rollout {
@@ -93,11 +99,16 @@ bool goes_well(const VehicleParams& params, std::span<const Walker> walkers, con
 
 GiveWay give_way(const VehicleParams& vehicle, std::span<const Mover> movers, const Pose& pose,
                  const Intention& intention) {
-  std::array<Walker, kMostMovers> all{};
-  const std::size_t count = std::min(movers.size(), all.size());
+  std::array<Walker, 2 * kMostMovers> all{};
+  const std::size_t count = std::min<std::size_t>(movers.size(), kMostMovers);
   std::size_t known = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    if (!intention.hurries || movers[i].unseen_s < kHurriedUnseenS) all[known++] = seen_from(pose, movers[i]);
+    const Mover& m = movers[i];
+    if (intention.hurries && m.unseen_s >= kHurriedUnseenS) continue;
+    const Walker walker = seen_from(pose, m);
+    all[known++] = walker;
+    const bool may_have_turned = !intention.hurries && !m.lost_way && m.unseen_s > kTurnedUnseenS;
+    if (may_have_turned) all[known++] = turned_round(walker, m.unseen_s);
   }
   const std::span<const Walker> walkers(all.data(), known);
   if (known == 0) return {.speed_mps = intention.speed_mps};

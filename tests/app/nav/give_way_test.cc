@@ -46,6 +46,16 @@ TEST(GiveWay, WhoMayTurnRoundIsGivenRoom) {
   EXPECT_FALSE(asked(leaves, {.now_mps = 0, .speed_mps = 0.5, .hurries = true}).stands);
 }
 
+// He walked to the left when he was last seen, 1.5 s ago; if he has turned round he is right before the vehicle now.
+TEST(GiveWay, WhoIsOutOfViewMayHaveTurnedRound) {
+  const Mover left{.east_m = 1.4, .north_m = 2.4, .north_mps = 0.8, .unseen_s = 1.5};
+  Mover seen = left;
+  seen.unseen_s = 0;
+  const Intention goes_on{.now_mps = 0.5, .speed_mps = 0.8};
+  EXPECT_EQ(asked({seen}, goes_on).speed_mps, 0.8);
+  EXPECT_LT(asked({left}, goes_on).speed_mps, 0.8);
+}
+
 TEST(GiveWay, APlanWithoutAWayDoesNotTurnEither) {
   Plan plan;
   plan.turn_rate_rps = 0.5;
