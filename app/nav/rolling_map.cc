@@ -121,12 +121,16 @@ bool RollingMap::sees_height(std::size_t i, double forward, double left) const {
   return edge_m >= memory_.height[i] / 1000.0 + kEdgeMarginM;
 }
 
+// Whether the disparity image can say that what is remembered there is or is not there any more.
+bool RollingMap::can_look_for(std::size_t i, ImageView<const std::int16_t> disparity) const {
+  return params_.sight.focal_px > 0 && disparity.data != nullptr && memory_.height[i] >= kHangingMm;
+}
+
 // What an obstacle cell loses whose floor is seen.
 int RollingMap::cleared(std::size_t i, double forward, double left, ImageView<const std::int16_t> disparity) const {
-  const int height_mm = memory_.height[i];
-  const bool looks = params_.sight.focal_px > 0 && disparity.data != nullptr && height_mm >= kHangingMm;
-  if (!looks) return sees_height(i, forward, left) ? weight(forward, left, kCleared, kClearedFar) : 0;
-  switch (depth_view_.at(disparity, forward, left, height_mm / 1000.0, cell_m_)) {
+  if (!can_look_for(i, disparity))
+    return sees_height(i, forward, left) ? weight(forward, left, kCleared, kClearedFar) : 0;
+  switch (depth_view_.at(disparity, forward, left, memory_.height[i] / 1000.0, cell_m_)) {
     case Shown::behind:
       return kCleared;
     case Shown::nothing:
@@ -155,9 +159,8 @@ void RollingMap::see_free(std::size_t i, double forward, double left, ImageView<
 
 // Where no floor is seen, as in the blind zone, what stood high enough to be in view and is not there any more leaves unknown ground.
 void RollingMap::see_through(std::size_t i, double forward, double left, ImageView<const std::int16_t> disparity) {
-  const int height_mm = memory_.height[i];
-  if (params_.sight.focal_px <= 0 || disparity.data == nullptr || height_mm < kHangingMm) return;
-  if (depth_view_.at(disparity, forward, left, height_mm / 1000.0, cell_m_) != Shown::behind) return;
+  if (!can_look_for(i, disparity)) return;
+  if (depth_view_.at(disparity, forward, left, memory_.height[i] / 1000.0, cell_m_) != Shown::behind) return;
   std::uint8_t& evidence = memory_.evidence[i];
   evidence = static_cast<std::uint8_t>(std::max<int>(kFree, evidence - kCleared));
   if (evidence > kFree) return;

@@ -136,6 +136,7 @@ class RollingMap {
   void roll(std::int64_t x, std::int64_t y);
   void clear_seen_free(const NavGrid& frame, const Sight& sight, ImageView<const std::int16_t> disparity);
   void see_free(std::size_t i, double forward, double left, ImageView<const std::int16_t> disparity);
+  bool can_look_for(std::size_t i, ImageView<const std::int16_t> disparity) const;
   void see_through(std::size_t i, double forward, double left, ImageView<const std::int16_t> disparity);
   int cleared(std::size_t i, double forward, double left, ImageView<const std::int16_t> disparity) const;
   bool floor_goes_on(const NavGrid& frame, int row, int col) const;

@@ -118,10 +118,11 @@ int RoutePlanner::doubtful_place(const RollingMap& map, double goal_x, double go
     return place;
   };
   int place = find(0, {Through::comers, Through::gaps});
-  if (place < 0) place = find(2 * kInsists, {Through::comers});
-  if (place < 0) place = find(kInsists, {Through::gaps});
+  const bool has_looked = looked_at_count_ > 0;  // else the same searches would find the same
+  if (place < 0 && has_looked) place = find(2 * kInsists, {Through::comers});
+  if (place < 0 && has_looked) place = find(kInsists, {Through::gaps});
   if (place < 0) place = find(0, {Through::all});
-  if (place < 0 && looked_at_count_ > 0) {
+  if (place < 0 && has_looked) {
     looked_at_count_ = 0;
     place = find(0, {Through::comers, Through::gaps, Through::all});
   }
