@@ -11,7 +11,7 @@ struct PoseSample {
   double east_m = 0;
   double north_m = 0;
   double yaw = 0;
-  Nanoseconds time = 0;  // of the newest reading in it
+  Nanoseconds time = 0;  // of the newest travel in it
 };
 
 class Odometry {

@@ -125,7 +125,7 @@ struct IioConfig {
 };
 
 struct OdometryConfig {
-  double heading_time_s = 2;
+  double heading_time_s = 0.8;
   double heading_jump_deg = 20;
   double jump_hold_s = 3;
 };

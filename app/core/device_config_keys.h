@@ -216,7 +216,8 @@ void visit_iio_keys(Iio& c, Visitor& v) {
 
 template <class Odometry, class Visitor>
 void visit_odometry_keys(Odometry& c, Visitor& v) {
-  v(Key{"odometry.heading_time_s", "s", "Time constant with which the compass corrects the wheels' heading"},
+  v(Key{"odometry.heading_time_s", "s",
+        "Time constant with which the compass corrects the wheels' heading at 0.5 m/s straight on"},
     c.heading_time_s, Range{0.01, 100});
   v(Key{"odometry.heading_jump_deg", "deg", "A heading that differs by more from the wheels' is not believed"},
     c.heading_jump_deg, Range{1, 180});

@@ -2,6 +2,7 @@
 // processed, and a vehicle that turns at 90 degrees a second has turned by 9 in a tenth of it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -18,8 +19,9 @@ class PoseHistory {
     entries_[count_++ % kLength] = pose;
   }
 
-  // Between two entries on the straight line and the shorter way round, before the oldest and after the newest that one's. The
-  // time is the one asked for. The origin without any.
+  // Between two entries on the straight line and the shorter way round; before the oldest that one's; after the newest as the vehicle
+  // went on between the last two, for kMostAhead at most: a pair may come sooner than the drives' next answer. The time is the one
+  // asked for. The origin without any.
   PoseSample at_time(Nanoseconds time) const {
     PoseSample pose = near(time);
     pose.time = time;
@@ -28,6 +30,14 @@ class PoseHistory {
 
  private:
   static constexpr std::size_t kLength = 32;
+  static constexpr Nanoseconds kMostAhead = 100 * kMillisecond;
+
+  static PoseSample on_line(const PoseSample& before, const PoseSample& after, Nanoseconds time) {
+    const double share = static_cast<double>(time - before.time) / static_cast<double>(after.time - before.time);
+    return {.east_m = before.east_m + share * (after.east_m - before.east_m),
+            .north_m = before.north_m + share * (after.north_m - before.north_m),
+            .yaw = wrapped_angle(before.yaw + share * wrapped_angle(after.yaw - before.yaw))};
+  }
 
   PoseSample near(Nanoseconds time) const {
     if (count_ == 0) return {};
@@ -36,11 +46,7 @@ class PoseHistory {
       const PoseSample& before = at(i - 1);
       if (before.time > time) continue;
       const PoseSample& after = at(i);
-      if (after.time <= time) return after;
-      const double share = static_cast<double>(time - before.time) / static_cast<double>(after.time - before.time);
-      return {.east_m = before.east_m + share * (after.east_m - before.east_m),
-              .north_m = before.north_m + share * (after.north_m - before.north_m),
-              .yaw = wrapped_angle(before.yaw + share * wrapped_angle(after.yaw - before.yaw))};
+      return on_line(before, after, std::min(time, after.time + kMostAhead));
     }
     return at(oldest);
   }

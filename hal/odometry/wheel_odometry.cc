@@ -12,6 +12,19 @@ namespace {
 enum CounterIndex : std::size_t { kTravelJumps, kHeadingJumps };
 
 constexpr double kPi = std::numbers::pi;
+constexpr double kDegree = kPi / 180;
+
+// What the wheels' heading may be wrong by besides k, variances: two wheels that slip by 1 % more or less for a second each.
+constexpr double kPerRadian = 6e-4;    // rad^2
+constexpr double kPerMetre = 4e-4;     // rad^2
+constexpr double kScale = 0.05;        // k at the start, standard deviation
+constexpr double kScaleChange = 2e-5;  // ... and its variance for each radian: other ground
+constexpr double kLeastScale = 0.7;
+constexpr double kMostScale = 1.3;
+constexpr double kSpeed = 0.5;            // m/s, at which heading_time_s is meant
+constexpr double kReading = 2 * kDegree;  // a compass between iron things, standard deviation
+constexpr double kDoubtful = 3;           // standard deviations
+constexpr double kMostAhead = 0.1;        // s, that a turn is taken to go on evenly
 
 double seconds(Nanoseconds duration) {
   return static_cast<double>(duration) / static_cast<double>(kSecond);
@@ -44,13 +57,34 @@ Status WheelOdometry::add(const WheelTravel& travel) {
     return Status::bad_data;
   }
   pose_.time = std::max(pose_.time, travel.time);
-  const double turn = (right - left) / settings_.track_m;
+  const double rolled = (right - left) / settings_.track_m;
+  const double turn = scale_ * rolled;
   const double way = (left + right) / 2 * chord_of_arc(turn / 2);
   const double direction = pose_.yaw + turn / 2;
   pose_.east_m += way * std::cos(direction);
   pose_.north_m += way * std::sin(direction);
   pose_.yaw = wrapped_angle(pose_.yaw + turn);
+  turn_rate_rps_ = turn / seconds(duration);
+  grow_errors(rolled, (left + right) / 2);
   return Status::ok;
+}
+
+void WheelOdometry::grow_errors(double turned, double way) {
+  yaw_variance_ += 2 * turned * covariance_ + turned * turned * scale_variance_ + kPerRadian * std::abs(turned) +
+                   kPerMetre * std::abs(way);
+  covariance_ += turned * scale_variance_;
+  scale_variance_ = std::min(scale_variance_ + kScaleChange * std::abs(turned), kScale * kScale);
+}
+
+// By a heading that is off by `error` and has that variance.
+void WheelOdometry::correct(double error, double variance) {
+  const double yaw_gain = yaw_variance_ / (yaw_variance_ + variance);
+  const double scale_gain = covariance_ / (yaw_variance_ + variance);
+  pose_.yaw = wrapped_angle(pose_.yaw + yaw_gain * error);
+  scale_ = std::clamp(scale_ + scale_gain * error, kLeastScale, kMostScale);
+  scale_variance_ -= scale_gain * covariance_;
+  covariance_ *= 1 - yaw_gain;
+  yaw_variance_ *= 1 - yaw_gain;
 }
 
 Status WheelOdometry::add(const HeadingSample& heading) {
@@ -58,24 +92,32 @@ Status WheelOdometry::add(const HeadingSample& heading) {
   if (!last_heading_) {
     last_heading_ = heading.time;
     pose_.yaw = wrapped_angle(heading.yaw);
-    pose_.time = std::max(pose_.time, heading.time);
+    yaw_variance_ = kReading * kReading;
+    scale_variance_ = kScale * kScale;
     return Status::ok;
   }
   const Nanoseconds duration = heading.time - *last_heading_;
   if (duration <= 0) return Status::ok;
   last_heading_ = heading.time;
-  const double error = wrapped_angle(heading.yaw - pose_.yaw);
-  if (std::abs(error) > settings_.heading_jump_deg * kPi / 180) {
-    ++counters_[kHeadingJumps].value;
+  const double ahead_s =
+      last_travel_ ? std::clamp(seconds(heading.time - last_travel_->time), -kMostAhead, kMostAhead) : 0;
+  const double error = wrapped_angle(heading.yaw - pose_.yaw - turn_rate_rps_ * ahead_s);
+  const bool jumps = std::abs(error) > settings_.heading_jump_deg * kDegree;
+  const double likely = kDoubtful * std::sqrt(yaw_variance_ + kReading * kReading);
+  if (jumps || std::abs(error) > likely) {
+    if (jumps) ++counters_[kHeadingJumps].value;
     if (!jumped_since_) jumped_since_ = heading.time;
-    if (seconds(heading.time - *jumped_since_) < settings_.jump_hold_s) return Status::bad_data;
+    if (seconds(heading.time - *jumped_since_) < settings_.jump_hold_s)
+      return jumps ? Status::bad_data : Status::ok;
     // It is the wheels that are wrong: the vehicle slipped, or was turned by hand.
-    pose_.yaw = wrapped_angle(heading.yaw);
+    pose_.yaw = wrapped_angle(pose_.yaw + error);
+    yaw_variance_ = kReading * kReading;
+    covariance_ = 0;
   } else {
-    pose_.yaw = wrapped_angle(pose_.yaw + error * (1 - std::exp(-seconds(duration) / settings_.heading_time_s)));
+    const double nominal = settings_.heading_time_s * settings_.heading_time_s * kPerMetre * kSpeed;
+    correct(error, nominal / seconds(duration));
   }
   jumped_since_.reset();
-  pose_.time = std::max(pose_.time, heading.time);
   return Status::ok;
 }
 

@@ -120,6 +120,73 @@ TEST_F(WheelOdometryTest, AJumpOfTheCompassIsNotBelievedUntilItStays) {
   EXPECT_EQ(pose(odometry).yaw, 1);
 }
 
+// Turns at 1.5 rad/s to one side and the other, half a second each; read every 20 ms, the heading 15 ms later. The vehicle turns by
+// `share` of what its wheels say.
+class TurningOdometryTest : public WheelOdometryTest {
+ protected:
+  void turn(double share, double seconds) {
+    const int steps = static_cast<int>(std::lround(seconds * 50));
+    for (int i = 0; i < steps; ++i, ++steps_) {
+      const double rate = steps_ / 25 % 2 == 0 ? 1.5 : -1.5;
+      travel_.left_m -= rate / 50 * 0.25;
+      travel_.right_m += rate / 50 * 0.25;
+      travel_.time += 20 * kMillisecond;
+      true_yaw_ += share * rate / 50;
+      ASSERT_EQ(odometry_.add(travel_), Status::ok);
+      worst_ = std::max(worst_, std::abs(pose(odometry_).yaw - true_yaw_));
+      const HeadingSample heading{.yaw = true_yaw_ + compass_error_ + share * rate * 0.015,
+                                  .time = travel_.time + 15 * kMillisecond};
+      if (i % 3 == 0) {
+        ASSERT_EQ(odometry_.add(heading), Status::ok);
+      }
+    }
+  }
+
+  WheelOdometry odometry_{{.track_m = 0.5, .has_compass = true}};
+  double true_yaw_ = 0;
+  double compass_error_ = 0;
+  double worst_ = 0;
+  int steps_ = 0;
+};
+
+TEST_F(TurningOdometryTest, WhatTheTyresLoseInATurnIsLearnt) {
+  ASSERT_EQ(odometry_.add(travel_), Status::ok);
+  ASSERT_EQ(odometry_.add(HeadingSample{.time = travel_.time}), Status::ok);
+  turn(0.94, 4);
+  worst_ = 0;
+  turn(0.94, 4);
+  EXPECT_LT(worst_, 0.5 * kPi / 180);  // 2.6 degrees in each half second, without
+  // For a second without a compass to look at.
+  for (int i = 0; i < 50; ++i) {
+    travel_.left_m -= 1.5 / 50 * 0.25;
+    travel_.right_m += 1.5 / 50 * 0.25;
+    travel_.time += 20 * kMillisecond;
+    ASSERT_EQ(odometry_.add(travel_), Status::ok);
+  }
+  EXPECT_NEAR(pose(odometry_).yaw, true_yaw_ + 0.94 * 1.5, 1.5 * kPi / 180);  // 5.2 degrees
+}
+
+TEST_F(TurningOdometryTest, AHeadingIsComparedWithThePoseOfItsOwnTime) {
+  ASSERT_EQ(odometry_.add(travel_), Status::ok);
+  ASSERT_EQ(odometry_.add(HeadingSample{.time = travel_.time}), Status::ok);
+  turn(1, 4);
+  EXPECT_LT(worst_, 0.4 * kPi / 180);  // the 15 ms are 1.3 degrees
+}
+
+TEST_F(WheelOdometryTest, AHeadingThatIsUnlikelyIsLeftOutButNoFault) {
+  WheelOdometry odometry({.track_m = 0.5, .has_compass = true, .heading_jump_deg = 20, .jump_hold_s = 3});
+  ASSERT_EQ(odometry.add(travel_), Status::ok);
+  ASSERT_EQ(odometry.add(HeadingSample{.time = travel_.time}), Status::ok);
+  for (int i = 0; i < 200; ++i) {
+    run(odometry, 0.5, 0.5, 0.1);
+    const bool passes_iron = i >= 50 && i < 60;
+    const HeadingSample heading{.yaw = passes_iron ? 12 * kPi / 180 : 0, .time = travel_.time};
+    ASSERT_EQ(odometry.add(heading), Status::ok);
+    EXPECT_NEAR(pose(odometry).yaw, 0, 0.1 * kPi / 180);
+  }
+  EXPECT_EQ(odometry.counters()[1].value, 0U);
+}
+
 TEST_F(WheelOdometryTest, AShortJumpIsForgotten) {
   WheelOdometry odometry({.track_m = 0.5, .has_compass = true, .jump_hold_s = 0.3});
   ASSERT_EQ(odometry.add(travel_), Status::ok);

@@ -20,7 +20,17 @@ TEST(PoseHistory, LiesBetweenItsEntries) {
   EXPECT_EQ(h.at_time(200).yaw, 2.0);
   EXPECT_NEAR(h.at_time(290).yaw, 1.1, 1e-12);
   EXPECT_EQ(h.at_time(300).yaw, 1.0);
-  EXPECT_EQ(h.at_time(400).yaw, 1.0);
+}
+
+TEST(PoseHistory, GoesOnAfterTheNewestForAWhile) {
+  PoseHistory h;
+  h.add({.east_m = 1, .yaw = 3.0, .time = kSecond});
+  EXPECT_EQ(h.at_time(2 * kSecond).yaw, 3.0);
+  h.add({.east_m = 1.1, .yaw = 3.1, .time = kSecond + 20 * kMillisecond});
+  EXPECT_NEAR(h.at_time(kSecond + 40 * kMillisecond).east_m, 1.2, 1e-12);
+  EXPECT_NEAR(h.at_time(kSecond + 40 * kMillisecond).yaw, 3.2 - 2 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(h.at_time(kSecond + 120 * kMillisecond).east_m, 1.6, 1e-12);
+  EXPECT_NEAR(h.at_time(2 * kSecond).east_m, 1.6, 1e-12);
 }
 
 TEST(PoseHistory, TakesTheShorterWayAcrossTheSeam) {
@@ -40,7 +50,7 @@ TEST(PoseHistory, ForgetsTheOldestAndIgnoresWhatIsNotNewer) {
   EXPECT_NEAR(h.at_time(0).yaw, 0.68, 1e-9);  // 32 are kept: 68 to 99
   h.add({.yaw = 3, .time = 990});
   h.add({.yaw = 3, .time = 500});
-  EXPECT_NEAR(h.at_time(2000).yaw, 0.99, 1e-9);
+  EXPECT_NEAR(h.at_time(990).yaw, 0.99, 1e-9);
 }
 
 TEST(PoseHistory, PlacesLieBetweenItsEntries) {
@@ -53,7 +63,6 @@ TEST(PoseHistory, PlacesLieBetweenItsEntries) {
   EXPECT_NEAR(between.north_m, -3, 1e-12);
   EXPECT_EQ(between.time, 125);
   EXPECT_EQ(h.at_time(50).east_m, 1);
-  EXPECT_EQ(h.at_time(500).north_m, -6);
 }
 
 }  // namespace
