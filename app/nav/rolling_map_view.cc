@@ -1,3 +1,6 @@
+#include <array>
+#include <cmath>
+
 #include "app/nav/rolling_map_walk.h"
 #include "kernels/base/units.h"
 
@@ -76,18 +79,25 @@ Status RollingMap::window(std::int64_t x, std::int64_t y, ImageView<std::uint8_t
       if (evidence == kFree) out = kCellUnoccupied;
     }
   }
-  thicken(type);
+  thicken(type, at_.pose.east_m / cell_m_ - static_cast<double>(x),
+          at_.pose.north_m / cell_m_ - static_cast<double>(y));
   return Status::ok;
 }
 
-// What was never seen behind a face counts as an obstacle there, too; see view().
-void RollingMap::thicken(ImageView<std::uint8_t> type) {
+// What was never seen behind a face, as the vehicle at (x, y) looks at it, counts as an obstacle, too. Not what lies beside it: there a
+// doorway may begin.
+void RollingMap::thicken(ImageView<std::uint8_t> type, double from_x, double from_y) {
+  constexpr double kBehindCos = 0.5;
   constexpr std::uint8_t kBehind = 255;  // until all are found
   constexpr std::array<std::array<int, 2>, 4> kSides{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
   for (int v = 0; v < type.height; ++v) {
     for (int u = 0; u < type.width; ++u) {
       if (type.at(u, v) != kCellObstacle) continue;
+      const double dx = u + 0.5 - from_x;
+      const double dy = v + 0.5 - from_y;
+      const double least = kBehindCos * std::hypot(dx, dy);
       for (const auto& [du, dv] : kSides) {
+        if (du * dx + dv * dy < least) continue;
         for (int n = 1; n <= static_cast<int>(kThickness); ++n) {
           const int x = u + n * du;
           const int y = v + n * dv;

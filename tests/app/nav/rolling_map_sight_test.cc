@@ -157,5 +157,24 @@ TEST_F(RollingMapSightTest, WhatWasSeenFromFarAwayOnlyIsForgottenSooner) {
   EXPECT_EQ(cell(15, 40), kCellUnknown);
 }
 
+// A wall across the way with a doorway in it: what lies beyond the wall is not known, nor is the doorway.
+TEST_F(RollingMapSightTest, ForTheRouteAWallIsThickBehindAndNotBesideItsEnd) {
+  configure();
+  fill(kCellUnknown);
+  block(30, 31, 0, 40, kCellObstacle);  // 3 m ahead, to the left of straight ahead
+  add();
+  add();
+  Image<std::uint8_t> window(80, 80, kCellUnknown);
+  ASSERT_EQ(map.window(0, -40, window.view()), Status::ok);
+  const auto at_cell = [&](int x, int y) { return window.view().at(x, y + 40); };
+  EXPECT_EQ(at_cell(30, 5), kCellObstacle);
+  EXPECT_EQ(at_cell(31, 5), kCellObstacle);
+  EXPECT_EQ(at_cell(32, 5), kCellObstacle);
+  EXPECT_EQ(at_cell(33, 5), kCellUnknown);
+  EXPECT_EQ(at_cell(29, 5), kCellUnknown);
+  EXPECT_EQ(at_cell(30, 0), kCellObstacle);
+  EXPECT_EQ(at_cell(30, -1), kCellUnknown);
+}
+
 }  // namespace
 }  // namespace lakshya
