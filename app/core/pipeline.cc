@@ -344,7 +344,12 @@ Status Pipeline::plan(const PlanInput& input, FrameResult& result) {
       rolling_map_, pose, pose.east_m + distance_m * std::cos(pose.yaw + input.target),
       pose.north_m + distance_m * std::sin(pose.yaw + input.target), kCarriedTurn * input.heading_change, route);
   if (found != Status::ok) return found;
-  with_route.route = RouteAim{route.found, route.direction, route.clear_m, route.clear_end, route.swept_m};
+  with_route.route = RouteAim{.found = route.found,
+                              .direction = route.direction,
+                              .straight_m = route.straight_m,
+                              .clear_m = route.clear_m,
+                              .clear_end = route.clear_end,
+                              .swept_m = route.swept_m};
   return planner_.plan(result.map, with_route, plan_state_, result.plan);
 }
 

@@ -25,7 +25,7 @@ struct PlannerParams {
   double route_margin_m = 0.05;   // route: least distance of the vehicle's side from the middle of an obstacle cell
   double route_comfort_m = 0.40;  // route: distance that it keeps where that is cheap
   double route_reach_m = 1.2;     // route: how far ahead it aims
-  double route_first_look_deg = 35;  // route: how far it turns to either side before it sets off
+  double route_first_look_deg = 50;  // route: how far it turns to either side before it sets off
   int vfh_smoothing = 5;             // l
   int vfh_threshold = 250;           // smoothed density above which a sector is no valley
   int vfh_stop_density = 10'000;     // h_m: smoothed density ahead at which the speed is 0

@@ -63,6 +63,15 @@ bool usable(const PlannerParams& p) {
          p.vfh_stop_density > 0;
 }
 
+// An arc that leaves straight ahead and ends in the aimed point turns by twice its direction: faster than this the vehicle would pass
+// beside it.
+double speed_on_arc(double turn_rate_rps, const RouteAim& route) {
+  const double bend = 2 * std::abs(std::sin(route.direction));
+  constexpr double kStraight = 1e-6;
+  return bend < kStraight ? std::numeric_limits<double>::infinity()
+                          : std::abs(turn_rate_rps) * route.straight_m / bend;
+}
+
 }  // namespace
 
 Thresholds histogram_thresholds(const PlannerParams& params) {
@@ -158,8 +167,9 @@ void Planner::follow_route(const RouteAim& route, Plan& plan) const {
     return clear_m > vehicle_.radius_m + kCreepClear ? std::max(governed, creep) : governed;
   };
   const double speed_mps = std::min(allowed(route.clear_m), allowed(route.swept_m));
-  plan.speed_mps = speed_mps * std::max(0.0, 1 - std::abs(plan.direction) / kTurnsInPlace);
   plan.turn_rate_rps = turn_rate(plan.direction, vehicle_.steering_gain, radians(vehicle_.max_turn_rate_dps));
+  const double turning = std::max(0.0, 1 - std::abs(plan.direction) / kTurnsInPlace);
+  plan.speed_mps = std::min(speed_mps * turning, speed_on_arc(plan.turn_rate_rps, route));
   plan.wheels = wheel_speeds(plan.speed_mps, plan.turn_rate_rps, vehicle_.track_m);
 }
 

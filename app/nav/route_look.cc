@@ -21,7 +21,7 @@ constexpr double kLeastWay = 12;  // cells between the vehicle that looks and th
 constexpr double kMostWay = 18;
 constexpr double kArrived = 2;    // cells
 constexpr double kFaces = 0.25;   // rad
-constexpr double kTurned = 0.12;  // rad
+constexpr double kBeyond = 0.5;  // rad that it aims farther than it turns, so that it does not slow down before it has
 constexpr double kJump = 0.4;     // rad from plan to plan: the heading has only been found now
 constexpr int kFirstPlans = 80;   // at most, for both sides
 constexpr int kLooks = 8;         // plans for which it faces the place
@@ -212,8 +212,9 @@ bool RoutePlanner::look_round(const Pose& pose, double target_east_m, double tar
     first_side_ = wrap_angle(to_target - pose.yaw) > 0 ? -1 : 1;
   }
   const double side = first_looks_ == 0 ? first_side_ : -first_side_;
-  route.direction = wrap_angle(first_yaw_ + side * params_.first_look - pose.yaw);
-  if (std::abs(route.direction) < kTurned) ++first_looks_;
+  const double left = wrap_angle(first_yaw_ + side * params_.first_look - pose.yaw);
+  if (side * left <= 0) ++first_looks_;
+  route.direction = wrap_angle(left + side * kBeyond);
   if (++first_plans_ >= kFirstPlans) first_looks_ = 2;
   route.found = true;
   route.looks = true;
