@@ -116,107 +116,6 @@ int RollingMap::weight(double forward, double left, int near, int far) const {
   return std::max(far, static_cast<int>(near * near_m_ / std::sqrt(squared)));
 }
 
-bool RollingMap::sees_height(std::size_t i, double forward, double left) const {
-  const double edge_m = edge_height_ + edge_forward_ * forward + edge_left_ * left;
-  return edge_m >= memory_.height[i] / 1000.0 + kEdgeMarginM;
-}
-
-// Whether the disparity image can say that what is remembered there is or is not there any more.
-bool RollingMap::can_look_for(std::size_t i, ImageView<const std::int16_t> disparity) const {
-  return params_.sight.focal_px > 0 && disparity.data != nullptr && memory_.height[i] >= kHangingMm;
-}
-
-// What an obstacle cell loses whose floor is seen.
-int RollingMap::cleared(std::size_t i, double forward, double left, ImageView<const std::int16_t> disparity) const {
-  if (!can_look_for(i, disparity))
-    return sees_height(i, forward, left) ? weight(forward, left, kCleared, kClearedFar) : 0;
-  switch (depth_view_.at(disparity, forward, left, memory_.height[i] / 1000.0, cell_m_)) {
-    case Shown::behind:
-      return kCleared;
-    case Shown::nothing:
-      return kClearedFar;
-    case Shown::outside:
-    case Shown::thing:
-      break;
-  }
-  return 0;
-}
-
-void RollingMap::see_free(std::size_t i, double forward, double left, ImageView<const std::int16_t> disparity) {
-  std::uint8_t& evidence = memory_.evidence[i];
-  std::uint8_t& floor = memory_.floor[i];
-  floor = static_cast<std::uint8_t>(std::min(floor + kFreeCounts, kMostFree));
-  if (evidence > kFree) {
-    const int less = cleared(i, forward, left, disparity);
-    if (less == 0) return;
-    evidence = static_cast<std::uint8_t>(std::max<int>(kFree, evidence - less));
-  } else {
-    evidence = kFree;
-  }
-  if (evidence == kFree) memory_.height[i] = 0;
-  memory_.seen[i] = now_;
-}
-
-// Where no floor is seen, as in the blind zone, what stood high enough to be in view and is not there any more leaves unknown ground.
-void RollingMap::see_through(std::size_t i, double forward, double left, ImageView<const std::int16_t> disparity) {
-  if (!can_look_for(i, disparity)) return;
-  if (depth_view_.at(disparity, forward, left, memory_.height[i] / 1000.0, cell_m_) != Shown::behind) return;
-  std::uint8_t& evidence = memory_.evidence[i];
-  evidence = static_cast<std::uint8_t>(std::max<int>(kFree, evidence - kCleared));
-  if (evidence > kFree) return;
-  evidence = 0;
-  memory_.height[i] = 0;
-}
-
-// Whether floor there would be in view, and near enough that it should be seen.
-bool RollingMap::looks_at(double forward, double left) const {
-  const double far_m = params_.blind_m + kDoubtM;
-  const double squared = forward * forward + left * left;
-  if (squared < params_.blind_m * params_.blind_m || squared > far_m * far_m) return false;
-  const double x = forward - params_.camera.forward_m;
-  const double y = left - params_.camera.left_m;
-  const double ahead = x * yaw_cos_ + y * yaw_sin_;
-  return ahead > 0 && ahead * ahead > view_cos_ * view_cos_ * (x * x + y * y);
-}
-
-// Whether the frame knows anything behind a free cell, where a window over the border of what can be matched would end; a thing before
-// that hides what lies there.
-bool RollingMap::floor_goes_on(const NavGrid& frame, int row, int col) const {
-  const double forward = (row + 0.5) * cell_m_ - params_.camera.forward_m;
-  const double left = (geometry_.cols / 2.0 - col - 0.5) * cell_m_ - params_.camera.left_m;
-  const double squared = forward * forward + left * left;
-  const double range = std::sqrt(squared);
-  const int reach = static_cast<int>(std::ceil(kBorderRows * params_.row_m * squared / cell_m_));
-  if (reach == 0 || reach > kFarBorder) return true;  // far away it matters little
-  for (int k = 1; k <= reach + 1; ++k) {
-    const int r = static_cast<int>(std::lround(row + k * forward / range));
-    const int c = static_cast<int>(std::lround(col - k * left / range));
-    if (r < 0 || r >= geometry_.rows || c < 0 || c >= geometry_.cols) return true;
-    const std::uint8_t type = frame.type.at(c, r);
-    if (type == kCellObstacle || (type == kCellUnoccupied && k >= reach)) return true;
-  }
-  return false;
-}
-
-void RollingMap::clear_seen_free(const NavGrid& frame, const Sight& sight,
-                                 ImageView<const std::int16_t> disparity) {
-  visit_below(sight, [&](std::size_t i, std::int64_t row, std::int64_t column) {
-    const auto c = static_cast<int>(column >> kFraction);
-    const auto r = static_cast<int>(row >> kFraction);
-    const std::uint8_t type = frame.type.at(c, r);
-    if (type == kCellUnoccupied && floor_goes_on(frame, r, c)) {
-      see_free(i, cells_of(row) * cell_m_, (sight.half - cells_of(column)) * cell_m_, disparity);
-    } else if (memory_.evidence[i] != kFree) {
-      if (type != kCellObstacle && memory_.evidence[i] > kFree)
-        see_through(i, cells_of(row) * cell_m_, (sight.half - cells_of(column)) * cell_m_, disparity);
-    } else if (type == kCellObstacle) {
-      memory_.evidence[i] = 0;
-    } else if (params_.view > 0 && looks_at(cells_of(row) * cell_m_, (sight.half - cells_of(column)) * cell_m_)) {
-      if (++memory_.height[i] >= kDoubts) memory_.evidence[i] = 0;
-    }
-  });
-}
-
 void RollingMap::add_obstacles(const NavGrid& frame, const Sight& sight) {
   for (int r = 0; r < geometry_.rows; ++r) {
     for (int c = 0; c < geometry_.cols; ++c) {
@@ -284,6 +183,7 @@ Status RollingMap::add(const NavGrid& frame, const MapPose& at, ImageView<const 
   now_ = std::max(now_, static_cast<std::uint32_t>(std::max<std::int64_t>(0, at.time_ns - first_ns_) / kTickNs));
   near_m_ = params_.near_m + speed * params_.latency_s + speed * speed / (2 * params_.deceleration_mps2);
   roll(x, y);
+  find_shadows(frame, sight);
   clear_seen_free(frame, sight, disparity);
   add_obstacles(frame, sight);
   stand_here(sight);

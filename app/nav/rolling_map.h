@@ -24,8 +24,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "app/nav/depth_view.h"
+#include "app/nav/shadow.h"
 #include "app/nav/way_point.h"
 #include "kernels/base/image_view.h"
 #include "kernels/base/nav_grid.h"
@@ -84,6 +86,10 @@ class RollingMap {
   static constexpr int kMostHits = 3;  // evidence saturates at what so many frames add
   static constexpr int kCleared = 6;
   static constexpr int kClearedFar = 2;
+  static constexpr int kBeside = 6;        // lost by what a frame does not show, but sees its neighbour
+  static constexpr int kHidden = 1;        // lost by what only a distant view has shown, and is hidden now
+  static constexpr double kHiddenM = 0.3;  // by something that is nearer by more than this
+  static constexpr double kBesideM = 0.3;  // ... from so far beyond blind_m on
   static constexpr int kSunk = 2;
   static constexpr std::size_t kThickness = 2;
   static constexpr int kDoubts = 5;             // frames in a row
@@ -140,6 +146,11 @@ class RollingMap {
   bool can_look_for(std::size_t i, ImageView<const std::int16_t> disparity) const;
   void see_through(std::size_t i, double forward, double left, ImageView<const std::int16_t> disparity);
   int cleared(std::size_t i, double forward, double left, ImageView<const std::int16_t> disparity) const;
+  std::pair<double, double> from_camera(double forward, double left) const;
+  void find_shadows(const NavGrid& frame, const Sight& sight);
+  bool is_hidden(double forward, double left) const;
+  void lose(std::size_t i, int evidence);
+  bool is_beside_hit(const NavGrid& frame, int row, int col) const;
   bool floor_goes_on(const NavGrid& frame, int row, int col) const;
   bool looks_at(double forward, double left) const;
   bool sees_height(std::size_t i, double forward, double left) const;
@@ -151,6 +162,7 @@ class RollingMap {
   int weight(double forward, double left, int near, int far) const;
 
   RollingMapParams params_;
+  Shadow shadow_;
   DepthView depth_view_{DepthViewParams{}};
   GridGeometry geometry_;
   RollingMapMemory memory_;
