@@ -41,7 +41,7 @@ namespace lakshya {
 // What a search for the way to the target (route.h) has found.
 struct RouteAim {
   bool found = false;
-  double direction = 0;  // rad, from straight ahead
+  double direction = 0;                                         // rad, from straight ahead
   double straight_m = std::numeric_limits<double>::infinity();  // to the point that it leads to
   // How far the vehicle's side may go that way, to an obstacle or to the first cell that is not known to be free; and, of the
   // directions that it sweeps until it has turned there, the least that may be gone. From the turning centre, metres.

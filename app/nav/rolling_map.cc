@@ -78,11 +78,15 @@ void RollingMap::forget_old() {
   if (now_ - swept_ < std::min(kSweepTicks, keep_)) return;
   swept_ = now_;
   std::uint8_t* evidence = memory_.evidence.data();
+  std::int16_t* height = memory_.height.data();
   const std::uint32_t* seen = memory_.seen.data();
   for (std::size_t i = 0; i < memory_.evidence.size(); ++i) {
     const auto believed = static_cast<std::uint64_t>(std::max<int>(evidence[i] - kFree, kBelieved));
     const std::uint64_t age = now_ - seen[i];
-    evidence[i] = age * kBelieved > keep_ * believed ? std::uint8_t{0} : evidence[i];
+    const bool old = age * kBelieved > keep_ * believed;
+    const bool in_vain = evidence[i] == 0 && age <= kVainTimes * keep_;
+    height[i] = old && !in_vain ? std::int16_t{0} : height[i];
+    evidence[i] = old ? std::uint8_t{0} : evidence[i];
   }
 }
 

@@ -7,8 +7,8 @@
 // less from far away, and is unoccupied when nothing is left. Unknown cells of a frame change nothing: what the camera does not see
 // (blind zone, beside, behind) stays for keep_s, an obstacle for keep_s for each kBelieved of its evidence, and what is within blind_m
 // for as long as the vehicle is there.
-// Free ground near by that the camera looks at and does not see in kDoubts frames in a row is unknown again: floor that a matcher went
-// on with into a wall that shows nothing is seen from far away only.
+// Ground near by that the camera looks at, and nothing hides, and that kDoubts frames in a row do not show is unknown: floor that a
+// matcher went on with into a wall that shows nothing is seen from far away only, and from there does not count again for a while.
 // Floor that goes on into unknown cells within kBorderRows of the image does not count there: a matcher's window reaches across the
 // border of what it can match, so that floor seems to go on into a wall that shows nothing.
 // Floor seen below something does not clear it: an obstacle loses evidence only where the camera's upper edge, as far away as the
@@ -70,7 +70,7 @@ struct RollingMapParams {
 struct RollingMapMemory {
   std::span<std::uint8_t> evidence;  // 0: unknown, 1: free, 1 + n: n of an obstacle
   std::span<std::int16_t>
-      height;  // greatest mean height of the obstacle, mm; of free ground: frames that did not see it
+      height;  // greatest mean height of the obstacle, mm; else the frames that looked there in vain
   std::span<std::uint32_t> seen;  // when last seen, in units of kTickNs since the first frame
   std::span<std::uint8_t> floor;  // frames that saw it free less those that saw an obstacle; saturates
 };
@@ -92,9 +92,10 @@ class RollingMap {
   static constexpr double kBesideM = 0.3;  // ... from so far beyond blind_m on
   static constexpr int kSunk = 2;
   static constexpr std::size_t kThickness = 2;
-  static constexpr int kDoubts = 5;             // frames in a row
-  static constexpr double kDoubtM = 1.2;        // how far beyond blind_m
-  static constexpr double kEdgeMarginM = 0.05;  // of the upper edge above a remembered height
+  static constexpr int kDoubts = 5;               // frames in a row
+  static constexpr std::uint64_t kVainTimes = 3;  // of keep_s: where it was looked in vain is remembered longer
+  static constexpr double kDoubtM = 1.2;          // how far beyond blind_m
+  static constexpr double kEdgeMarginM = 0.05;    // of the upper edge above a remembered height
   static constexpr int kBorderRows = 5;
   static constexpr int kFarBorder = 6;  // cells: where those rows cover more, any floor counts
   static constexpr int kHangingMm = 300;
@@ -129,6 +130,9 @@ class RollingMap {
     return holds(x, y) && memory_.floor[index(x, y)] >= kOftenFree;
   }
 
+  // Whether world cell (x, y) is unknown though the camera looked at it from near by. False outside.
+  bool looked_in_vain(std::int64_t x, std::int64_t y) const { return holds(x, y) && looked_in_vain(index(x, y)); }
+
  private:
   static constexpr std::uint8_t kFree = 1;  // evidence
 
@@ -138,7 +142,10 @@ class RollingMap {
 
   bool holds(std::int64_t x, std::int64_t y) const;
   std::size_t index(std::int64_t x, std::int64_t y) const;  // of a cell that the square holds
-  void forget(std::size_t i) { memory_.evidence[i] = memory_.floor[i] = 0; }
+  void forget(std::size_t i) {
+    memory_.evidence[i] = memory_.floor[i] = 0;
+    memory_.height[i] = 0;
+  }
   void forget_old();
   void roll(std::int64_t x, std::int64_t y);
   void clear_seen_free(const NavGrid& frame, const Sight& sight, ImageView<const std::int16_t> disparity);
@@ -152,6 +159,9 @@ class RollingMap {
   void lose(std::size_t i, int evidence);
   bool is_beside_hit(const NavGrid& frame, int row, int col) const;
   bool floor_goes_on(const NavGrid& frame, int row, int col) const;
+  bool looked_in_vain(std::size_t i) const { return memory_.evidence[i] == 0 && memory_.height[i] >= kDoubts; }
+  bool is_refuted(std::size_t i, double forward, double left) const;
+  void look_in_vain(std::size_t i, double forward, double left);
   bool looks_at(double forward, double left) const;
   bool sees_height(std::size_t i, double forward, double left) const;
   void add_obstacles(const NavGrid& frame, const Sight& sight);

@@ -136,29 +136,44 @@ void RollingMap::lose(std::size_t i, int evidence) {
   memory_.evidence[i] = static_cast<std::uint8_t>(std::max<int>(kFree + 1, memory_.evidence[i] - evidence));
 }
 
+// Far away a matcher goes on with the floor into a wall that shows nothing. Where it was looked for from near by in vain, only a look from
+// near by makes free ground of it.
+bool RollingMap::is_refuted(std::size_t i, double forward, double left) const {
+  const double far_m = params_.blind_m + kDoubtM;
+  return looked_in_vain(i) && forward * forward + left * left > far_m * far_m;
+}
+
+// A cell without an obstacle in which the frame shows nothing.
+void RollingMap::look_in_vain(std::size_t i, double forward, double left) {
+  if (params_.view <= 0 || !looks_at(forward, left) || is_hidden(forward, left)) return;
+  std::int16_t& times = memory_.height[i];
+  if (times < kDoubts && ++times < kDoubts) return;
+  memory_.evidence[i] = 0;
+  memory_.seen[i] = now_;
+}
+
 void RollingMap::clear_seen_free(const NavGrid& frame, const Sight& sight,
                                  ImageView<const std::int16_t> disparity) {
   visit_below(sight, [&](std::size_t i, std::int64_t row, std::int64_t column) {
     const auto c = static_cast<int>(column >> kFraction);
     const auto r = static_cast<int>(row >> kFraction);
+    const double forward = cells_of(row) * cell_m_;
+    const double left = (sight.half - cells_of(column)) * cell_m_;
     const std::uint8_t type = frame.type.at(c, r);
+    const std::uint8_t evidence = memory_.evidence[i];
     if (type == kCellUnoccupied && floor_goes_on(frame, r, c)) {
-      see_free(i, cells_of(row) * cell_m_, (sight.half - cells_of(column)) * cell_m_, disparity);
-    } else if (memory_.evidence[i] != kFree) {
-      if (type == kCellObstacle || memory_.evidence[i] <= kFree) return;
-      const double forward = cells_of(row) * cell_m_;
-      const double left = (sight.half - cells_of(column)) * cell_m_;
-      if (is_beside_hit(frame, r, c)) {
-        lose(i, kBeside);
-      } else if (is_hidden(forward, left)) {
-        if (memory_.evidence[i] <= kFree + kMostHits * kBelieved / 2) lose(i, kHidden);
-      } else {
-        see_through(i, forward, left, disparity);
-      }
+      if (!is_refuted(i, forward, left)) see_free(i, forward, left, disparity);
     } else if (type == kCellObstacle) {
-      memory_.evidence[i] = 0;
-    } else if (params_.view > 0 && looks_at(cells_of(row) * cell_m_, (sight.half - cells_of(column)) * cell_m_)) {
-      if (++memory_.height[i] >= kDoubts) memory_.evidence[i] = 0;
+      if (evidence == kFree) memory_.evidence[i] = 0;
+      if (evidence <= kFree) memory_.height[i] = 0;
+    } else if (evidence <= kFree) {
+      look_in_vain(i, forward, left);
+    } else if (is_beside_hit(frame, r, c)) {
+      lose(i, kBeside);
+    } else if (is_hidden(forward, left)) {
+      if (evidence <= kFree + kMostHits * kBelieved / 2) lose(i, kHidden);
+    } else {
+      see_through(i, forward, left, disparity);
     }
   });
 }

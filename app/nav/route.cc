@@ -148,7 +148,7 @@ Status RoutePlanner::plan(const RollingMap& map, const Pose& pose, double target
   const double goal_y = target_north_m / cell_m_ - static_cast<double>(y_begin_);
   if (look_round(pose, target_east_m, target_north_m, route)) return Status::ok;
   measure_distances();
-  price_cells(pose, x, y);
+  price_cells(map, pose, x, y);
   start_ = index(static_cast<int>(x), static_cast<int>(y));
   search();
   int end = choose_end(goal_x, goal_y);

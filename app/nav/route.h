@@ -98,7 +98,7 @@ class RoutePlanner {
   static bool inside(int x, int y) { return x >= 0 && x < kRouteSide && y >= 0 && y < kRouteSide; }
 
   void measure_distances();
-  void price_cells(const Pose& pose, double x, double y);
+  void price_cells(const RollingMap& map, const Pose& pose, double x, double y);
   void search();
   int cell_before(int cell) const;
   void push(int cell, std::int32_t cost);

@@ -45,7 +45,7 @@ void RoutePlanner::measure_distances() {
   }
 }
 
-void RoutePlanner::price_cells(const Pose& pose, double x, double y) {
+void RoutePlanner::price_cells(const RollingMap& map, const Pose& pose, double x, double y) {
   const int start_x = static_cast<int>(x);
   const int start_y = static_cast<int>(y);
   const int start2 = memory_.distance2[static_cast<std::size_t>(index(start_x, start_y))];
@@ -66,7 +66,8 @@ void RoutePlanner::price_cells(const Pose& pose, double x, double y) {
         const double r2 = dx * dx + dy * dy;
         const bool should_be_seen =
             r2 > blind2 && r2 < near2 && std::abs(wrap_angle(std::atan2(dy, dx) - pose.yaw)) < params_.view;
-        factor += should_be_seen ? kUnknownNear : kUnknown;
+        const bool in_vain = should_be_seen || map.looked_in_vain(x_begin_ + u, y_begin_ + v);
+        factor += in_vain ? kUnknownNear : kUnknown;
       }
       memory_.factor[i] = static_cast<std::uint8_t>(std::min(factor, 255));
     }

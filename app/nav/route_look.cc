@@ -19,9 +19,10 @@ constexpr int kNearly2 = 9;
 
 constexpr double kLeastWay = 12;  // cells between the vehicle that looks and the place
 constexpr double kMostWay = 18;
-constexpr double kArrived = 2;    // cells
-constexpr double kFaces = 0.25;   // rad
-constexpr double kBeyond = 0.5;  // rad that it aims farther than it turns, so that it does not slow down before it has
+constexpr double kArrived = 2;   // cells
+constexpr double kFaces = 0.25;  // rad
+constexpr double kBeyond =
+    0.5;  // rad that it aims farther than it turns, so that it does not slow down before it has
 constexpr double kJump = 0.4;     // rad from plan to plan: the heading has only been found now
 constexpr int kFirstPlans = 80;   // at most, for both sides
 constexpr int kLooks = 8;         // plans for which it faces the place

@@ -237,5 +237,57 @@ TEST_F(RollingMapSightTest, BehindWhatIsSeenNowADistantViewIsForgotten) {
   EXPECT_EQ(cell(40, 40), kCellObstacle);  // nothing hides it
 }
 
+// From afar the matcher carries the floor on into a wall that shows nothing; from near by there is none.
+TEST_F(RollingMapSightTest, WhereItWasLookedInVainFromNearByFloorFromFarAwayDoesNotCount) {
+  params.view = radians(30);
+  params.blind_m = 1;
+  params.keep_s = 2;
+  configure();
+  fill(kCellUnoccupied);
+  add();
+  EXPECT_FALSE(map.looked_in_vain(20, 0));
+  block(16, 60, 0, 80, kCellUnknown);
+  for (int k = 0; k < RollingMap::kDoubts; ++k) {
+    EXPECT_EQ(cell(20, 40), kCellUnoccupied);
+    add();
+  }
+  EXPECT_EQ(cell(20, 40), kCellUnknown);
+  EXPECT_TRUE(map.looked_in_vain(20, 0));
+  EXPECT_FALSE(map.looked_in_vain(20, 19));  // beyond the border of the view
+  EXPECT_FALSE(map.looked_in_vain(23, 0));   // too far away for a judgement
+  EXPECT_FALSE(map.looked_in_vain(20, 1000));
+  // 2 m back it counts as free ground again only after some time; from there on it is free in one frame.
+  fill(kCellUnoccupied);
+  at.pose.east_m -= 2;
+  add();
+  EXPECT_EQ(cell(40, 40), kCellUnknown);
+  EXPECT_TRUE(map.looked_in_vain(20, 0));
+  at.pose.east_m += 2;
+  add();
+  EXPECT_EQ(cell(20, 40), kCellUnoccupied);
+  EXPECT_FALSE(map.looked_in_vain(20, 0));
+  block(16, 60, 0, 80, kCellUnknown);
+  for (int k = 0; k < RollingMap::kDoubts; ++k)
+    add();
+  at.pose.east_m -= 2;
+  add(2.5 * params.keep_s);
+  EXPECT_TRUE(map.looked_in_vain(20, 0));
+  add(params.keep_s);
+  EXPECT_FALSE(map.looked_in_vain(20, 0));
+}
+
+// What hides the floor is no reason to doubt it.
+TEST_F(RollingMapSightTest, BehindAnObstacleNothingIsLookedForInVain) {
+  params.view = radians(30);
+  params.blind_m = 1;
+  configure();
+  fill(kCellUnknown);
+  block(13, 14, 36, 44, kCellObstacle);
+  for (int k = 0; k < 2 * RollingMap::kDoubts; ++k)
+    add();
+  EXPECT_FALSE(map.looked_in_vain(20, 0));
+  EXPECT_TRUE(map.looked_in_vain(16, 8));
+}
+
 }  // namespace
 }  // namespace lakshya
