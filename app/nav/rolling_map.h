@@ -121,8 +121,8 @@ class RollingMap {
   Status view(ImageView<const std::uint8_t> frame, ImageView<std::uint8_t> type) const;
 
   // The cells from world cell (x, y) on as they lie in the world: column u east of x, row v north of y; CellType. What lies outside
-  // the square is unknown. Obstacles have something behind them as in view(), but on the side away from the vehicle only: beside the end
-  // of a wall a doorway may begin. bad_argument: nothing was added yet.
+  // the square is unknown. Obstacles have something behind them as in view(), but from kBesideM beyond blind_m on only on the
+  // side away from the vehicle: beside the end of a wall a doorway may begin. bad_argument: nothing was added yet.
   Status window(std::int64_t x, std::int64_t y, ImageView<std::uint8_t> type) const;
 
   // Whether world cell (x, y) was seen free so often that an obstacle there has probably come, and may go again. False outside.
@@ -137,7 +137,7 @@ class RollingMap {
   static constexpr std::uint8_t kFree = 1;  // evidence
 
   struct Sight;  // of one frame
-  static void thicken(ImageView<std::uint8_t> type, double from_x, double from_y);
+  void thicken(ImageView<std::uint8_t> type, double from_x, double from_y) const;
   struct Run;
 
   bool holds(std::int64_t x, std::int64_t y) const;

@@ -84,10 +84,11 @@ Status RollingMap::window(std::int64_t x, std::int64_t y, ImageView<std::uint8_t
   return Status::ok;
 }
 
-// What was never seen behind a face, as the vehicle at (x, y) looks at it, counts as an obstacle, too. Not what lies beside it: there a
-// doorway may begin.
-void RollingMap::thicken(ImageView<std::uint8_t> type, double from_x, double from_y) {
+// What was never seen behind a face, as the vehicle at (x, y) looks at it, counts as an obstacle, too. What lies beside it only where the
+// vehicle is so near that it will not come into view any more: farther away a doorway may begin there.
+void RollingMap::thicken(ImageView<std::uint8_t> type, double from_x, double from_y) const {
   constexpr double kBehindCos = 0.5;
+  const double near = (params_.blind_m + kBesideM) / cell_m_;
   constexpr std::uint8_t kBehind = 255;  // until all are found
   constexpr std::array<std::array<int, 2>, 4> kSides{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
   for (int v = 0; v < type.height; ++v) {
@@ -95,7 +96,8 @@ void RollingMap::thicken(ImageView<std::uint8_t> type, double from_x, double fro
       if (type.at(u, v) != kCellObstacle) continue;
       const double dx = u + 0.5 - from_x;
       const double dy = v + 0.5 - from_y;
-      const double least = kBehindCos * std::hypot(dx, dy);
+      const double range = std::hypot(dx, dy);
+      const double least = range < near ? -range : kBehindCos * range;
       for (const auto& [du, dv] : kSides) {
         if (du * dx + dv * dy < least) continue;
         for (int n = 1; n <= static_cast<int>(kThickness); ++n) {

@@ -174,6 +174,13 @@ TEST_F(RollingMapSightTest, ForTheRouteAWallIsThickBehindAndNotBesideItsEnd) {
   EXPECT_EQ(at_cell(29, 5), kCellUnknown);
   EXPECT_EQ(at_cell(30, 0), kCellObstacle);
   EXPECT_EQ(at_cell(30, -1), kCellUnknown);
+  // From 0.95 m away its end will not come into view any more.
+  at.pose.east_m = 2.1;
+  fill(kCellUnknown);
+  add();
+  ASSERT_EQ(map.window(0, -40, window.view()), Status::ok);
+  EXPECT_EQ(at_cell(30, -2), kCellObstacle);
+  EXPECT_EQ(at_cell(28, 0), kCellObstacle);
 }
 
 // The error of a depth puts a face into the next cell now and then.
