@@ -18,6 +18,8 @@ constexpr double kEasyCells = 1.5;    // ... it need not keep more than this fro
 constexpr int kStopShare = 82;        // of the squared distance that a way keeps: nearer the vehicle stops, percent
 constexpr double kUnsureCells = 1.5;  // by which floor may seem to go on into a wall that shows nothing
 constexpr double kSeenBehind = 3;     // cells behind the blind zone in which its floor may begin to show
+constexpr double kDear = 2;           // times the straight line
+constexpr double kWorthALook = 50.0 * kRouteStraight * kRouteOpen;  // cells that a doubted gap would save
 constexpr int kMostStray = 2;  // ... of floor within it, from far away, which say nothing about what is before them
 
 bool in(double value, double least, double most) {
@@ -152,7 +154,10 @@ Status RoutePlanner::plan(const RollingMap& map, const Pose& pose, double target
   start_ = index(static_cast<int>(x), static_cast<int>(y));
   search();
   int end = choose_end(goal_x, goal_y);
-  if (reaches(end, goal_x, goal_y)) {
+  const bool leads = reaches(end, goal_x, goal_y);
+  const double cost = leads ? cost_to_goal(end, goal_x, goal_y) : std::numeric_limits<double>::infinity();
+  dear_ = cost - kWorthALook;
+  if (cost < kDear * kRouteStraight * kRouteOpen * std::hypot(goal_x - x, goal_y - y)) {
     looked_at_count_ = looks_ = doubts_ = plans_ = 0;
   } else {
     ++plans_;

@@ -8,7 +8,8 @@
 // Where no way leads to the target, the cheapest one through closed cells shows which of them to doubt: first those that are closed by
 // what came to ground that was free before, then gaps, then any. The vehicle goes to where it has them in view from farther than its
 // blind zone and turns towards them. If they stay closed it leaves them for a while, looks at the next place if there is one, and comes
-// back: somebody may have stood there.
+// back: somebody may have stood there. Where the only way costs much more than the straight line, a gap that would save much of it is
+// looked at before it is taken: such ways lead far through what nobody has seen, and often there is a wall that shows nothing.
 // Before it sets off the vehicle turns first_look to either side: what stands beside it at the start, and beyond the border of the view,
 // would never come into view, and its side would sweep there.
 // The direction is that of the farthest point of the way, up to reach_m ahead, that a straight line reaches without coming nearer
@@ -104,6 +105,7 @@ class RoutePlanner {
   void push(int cell, std::int32_t cost);
   void remove(int cell);
   int choose_end(double goal_x, double goal_y) const;
+  double cost_to_goal(int end, double goal_x, double goal_y) const;
   void follow_back(int end);
   bool reaches(int end, double goal_x, double goal_y) const;
   int look_again(const RollingMap& map, const Pose& pose, double x, double y, double goal_x, double goal_y,
@@ -141,6 +143,7 @@ class RoutePlanner {
   int count_ = 0;
   std::array<LookedAt, kRouteLooks> looked_at_{};
   int looked_at_count_ = 0;
+  double dear_ = 0;      // a way through a place that is doubted must cost less than this
   int insists_ = 0;      // times up to which it looks once more at what it has looked at not long ago
   Point doubted_;        // the place that it goes to look at
   int doubts_ = 0;       // plans for which it still may; 0: none is doubted

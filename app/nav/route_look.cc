@@ -27,6 +27,8 @@ constexpr double kJump = 0.4;     // rad from plan to plan: the heading has only
 constexpr int kFirstPlans = 80;   // at most, for both sides
 constexpr int kLooks = 8;         // plans for which it faces the place
 constexpr int kLeaves = 40;       // plans for which it leaves a place alone, for each time that it has looked at it
+constexpr int kLeavesLong = 200;  // ... while there is another way
+constexpr int kSeldom = 5;        // plans after which it looks for a better way than that again
 constexpr int kInsists = 4;       // times that it looks at a gap before it looks at what is none
 constexpr int kDoubtedFor = 100;  // plans after which it gives up going there
 constexpr double kSamePlace = 10;   // cells
@@ -97,7 +99,7 @@ int RoutePlanner::place_on_the_way(const RollingMap& map, Through what, double g
   search();
   const int end = choose_end(goal_x, goal_y);
   int place = -1;
-  if (reaches(end, goal_x, goal_y)) {
+  if (reaches(end, goal_x, goal_y) && cost_to_goal(end, goal_x, goal_y) < dear_) {
     for (int cell = end; cell != start_; cell = cell_before(cell)) {
       if ((memory_.type[static_cast<std::size_t>(cell)] & kRouteShut) != 0) place = cell;
     }
@@ -119,6 +121,10 @@ int RoutePlanner::doubtful_place(const RollingMap& map, double goal_x, double go
     return place;
   };
   int place = find(0, {Through::comers, Through::gaps});
+  if (std::isfinite(dear_)) {
+    search();
+    return place;
+  }
   const bool has_looked = looked_at_count_ > 0;  // else the same searches would find the same
   if (place < 0 && has_looked) place = find(2 * kInsists, {Through::comers});
   if (place < 0 && has_looked) place = find(kInsists, {Through::gaps});
@@ -177,7 +183,7 @@ void RoutePlanner::note_looked_at() {
   }
   LookedAt& now = looked_at_[static_cast<std::size_t>(k)];
   now.place = doubted_;
-  now.until = plans_ + kLeaves * ++now.times;
+  now.until = plans_ + (std::isfinite(dear_) ? kLeavesLong : kLeaves) * ++now.times;
 }
 
 bool RoutePlanner::is_closed(const Point& place) const {
@@ -193,8 +199,9 @@ bool RoutePlanner::choose_doubt(const RollingMap& map, double goal_x, double goa
     if (--doubts_ > 0) return true;
     note_looked_at();
   }
-  const int place = doubtful_place(map, goal_x, goal_y);
   doubts_ = looks_ = 0;
+  if (std::isfinite(dear_) && plans_ % kSeldom != 1) return false;
+  const int place = doubtful_place(map, goal_x, goal_y);
   if (place < 0) return false;
   doubted_ = {x_begin_ + place % kRouteSide, y_begin_ + place / kRouteSide};
   doubts_ = kDoubtedFor;

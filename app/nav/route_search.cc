@@ -105,6 +105,12 @@ int RoutePlanner::choose_end(double goal_x, double goal_y) const {
   return best;
 }
 
+// Of a way that ends there, with the straight line that is left.
+double RoutePlanner::cost_to_goal(int end, double goal_x, double goal_y) const {
+  const double left = std::hypot(end % kRouteSide + 0.5 - goal_x, end / kRouteSide + 0.5 - goal_y);
+  return memory_.cost[static_cast<std::size_t>(end)] + kBorderWeight * left;
+}
+
 // Whether a way that ends there leads on: to the target, or out of the window towards it.
 bool RoutePlanner::reaches(int end, double goal_x, double goal_y) const {
   if (end < 0) return false;
