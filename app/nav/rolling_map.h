@@ -83,13 +83,13 @@ int rolling_map_side(const GridGeometry& geometry, double size_m);
 class RollingMap {
  public:
   static constexpr int kBelieved = 12;
-  static constexpr int kMostHits = 3;  // evidence saturates at what so many frames add
+  static constexpr int kMostHits = 3;                         // evidence saturates at what so many frames add
+  static constexpr int kMostFar = kMostHits * kBelieved / 2;  // what was never seen from near by has no more
   static constexpr int kCleared = 6;
   static constexpr int kClearedFar = 2;
-  static constexpr int kBeside = 6;        // lost by what a frame does not show, but sees its neighbour
   static constexpr int kHidden = 1;        // lost by what only a distant view has shown, and is hidden now
   static constexpr double kHiddenM = 0.3;  // by something that is nearer by more than this
-  static constexpr double kBesideM = 0.3;  // ... from so far beyond blind_m on
+  static constexpr double kBesideM = 0.3;  // beyond blind_m: farther away a face is thick behind only
   static constexpr int kSunk = 2;
   static constexpr std::size_t kThickness = 2;
   static constexpr int kDoubts = 5;               // frames in a row
@@ -157,7 +157,6 @@ class RollingMap {
   void find_shadows(const NavGrid& frame, const Sight& sight);
   bool is_hidden(double forward, double left) const;
   void lose(std::size_t i, int evidence);
-  bool is_beside_hit(const NavGrid& frame, int row, int col) const;
   bool floor_goes_on(const NavGrid& frame, int row, int col) const;
   bool looked_in_vain(std::size_t i) const { return memory_.evidence[i] == 0 && memory_.height[i] >= kDoubts; }
   bool is_refuted(std::size_t i, double forward, double left) const;

@@ -183,41 +183,6 @@ TEST_F(RollingMapSightTest, ForTheRouteAWallIsThickBehindAndNotBesideItsEnd) {
   EXPECT_EQ(at_cell(28, 0), kCellObstacle);
 }
 
-// The error of a depth puts a face into the next cell now and then.
-TEST_F(RollingMapSightTest, WhatIsNotThereThoughItsNeighbourIsGoes) {
-  configure();
-  fill(kCellUnknown);
-  block(25, 26, 30, 50, kCellObstacle);
-  block(24, 25, 40, 41, kCellObstacle);
-  for (int k = 0; k < 3; ++k)
-    add();
-  EXPECT_EQ(cell(24, 40), kCellObstacle);
-  block(24, 25, 40, 41, kCellUnknown);
-  for (int k = 0; k < 5; ++k)
-    add();
-  EXPECT_EQ(cell(24, 40), kCellUnknown);
-  EXPECT_EQ(cell(25, 40), kCellObstacle);
-  // Something thin that shows in one of two cells in turn is in both.
-  for (int k = 0; k < 20; ++k) {
-    block(24, 26, 30, 50, kCellUnknown);
-    block(24 + k % 2, 25 + k % 2, 40, 41, kCellObstacle);
-    add();
-  }
-  EXPECT_EQ(obstacles_near(2.5, -0.05, 1.1), 2);
-}
-
-TEST_F(RollingMapSightTest, NearByAFootThatIsOutOfViewStaysThoughWhatIsBehindItShows) {
-  configure();
-  fill(kCellUnknown);
-  block(11, 13, 30, 50, kCellObstacle);
-  for (int k = 0; k < 3; ++k)
-    add();
-  block(11, 12, 30, 50, kCellUnknown);
-  for (int k = 0; k < 50; ++k)
-    add();
-  EXPECT_EQ(cell(11, 40), kCellObstacle);
-}
-
 // What was put behind a wall from far away could never be looked at from before it.
 TEST_F(RollingMapSightTest, BehindWhatIsSeenNowADistantViewIsForgotten) {
   configure();
