@@ -15,6 +15,7 @@
 #include "app/nav/rolling_map.h"
 #include "app/nav/sectors.h"
 #include "kernels/base/units.h"
+#include "tests/support/rolling_map_arrays.h"
 
 namespace lakshya::test {
 
@@ -114,12 +115,7 @@ class DiscDrive {
 
  private:
   void configure() {
-    const auto side = static_cast<std::size_t>(rolling_map_side(geometry_, map_params.size_m));
-    evidence_.assign(side * side, 0);
-    height_.assign(side * side, 0);
-    seen_.assign(side * side, 0);
-    floor_.assign(side * side, 0);
-    ASSERT_EQ(map_.configure(map_params, geometry_, {evidence_, height_, seen_, floor_}), Status::ok);
+    ASSERT_EQ(map_.configure(map_params, geometry_, arrays_.make(geometry_, map_params.size_m)), Status::ok);
     ASSERT_EQ(planner_.configure(params, vehicle, geometry_, table_), Status::ok);
     prepare_view();
     state_ = {};
@@ -249,10 +245,7 @@ class DiscDrive {
   Image<std::uint8_t> shown_{80, 60, kCellUnknown};
   Image<std::uint32_t> count_{80, 60, 0};
   Image<std::int64_t> height_sum_{80, 60, 0};
-  std::vector<std::uint8_t> evidence_;
-  std::vector<std::int16_t> height_;
-  std::vector<std::uint32_t> seen_;
-  std::vector<std::uint8_t> floor_;
+  RollingMapArrays arrays_;
   std::vector<PolarEntry> table_ = std::vector<PolarEntry>(4800);
   RollingMap map_;
   Planner planner_;

@@ -10,6 +10,7 @@
 #include "app/nav/rolling_map.h"
 #include "app/nav/sectors.h"
 #include "kernels/base/units.h"
+#include "tests/support/rolling_map_arrays.h"
 
 namespace lakshya::test {
 
@@ -24,14 +25,7 @@ class RollingMapWorld : public ::testing::Test {
     params.camera.angle = radians(20);
   }
 
-  void configure() {
-    const auto side = static_cast<std::size_t>(rolling_map_side(geometry, params.size_m));
-    evidence.assign(side * side, 0);
-    height.assign(side * side, 0);
-    seen.assign(side * side, 0);
-    floor.assign(side * side, 0);
-    ASSERT_EQ(map.configure(params, geometry, {evidence, height, seen, floor}), Status::ok);
-  }
+  void configure() { ASSERT_EQ(map.configure(params, geometry, arrays.make(geometry, params.size_m)), Status::ok); }
 
   void fill(CellType what) { block(0, geometry.rows, 0, geometry.cols, what); }
   void block(int row_begin, int row_end, int col_begin, int col_end, CellType what, int height_mm = 300) {
@@ -79,10 +73,7 @@ class RollingMapWorld : public ::testing::Test {
   Image<std::uint8_t> shown{80, 60, kCellUnknown};
   Image<std::uint32_t> count{80, 60, 0};
   Image<std::int64_t> height_sum{80, 60, 0};
-  std::vector<std::uint8_t> evidence;
-  std::vector<std::int16_t> height;
-  std::vector<std::uint32_t> seen;
-  std::vector<std::uint8_t> floor;
+  RollingMapArrays arrays;
   RollingMapParams params;
   RollingMap map;
   MapPose at;

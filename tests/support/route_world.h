@@ -9,6 +9,7 @@
 
 #include "app/core/image.h"
 #include "app/nav/route.h"
+#include "tests/support/rolling_map_arrays.h"
 
 namespace lakshya::test {
 
@@ -19,12 +20,7 @@ class RouteWorld : public ::testing::Test {
     params_.size_m = 30;
     params_.near_m = 20;
     params_.camera.angle = 1.5;
-    const auto side = static_cast<std::size_t>(rolling_map_side(geometry_, params_.size_m));
-    evidence_.assign(side * side, 0);
-    height_.assign(side * side, 0);
-    seen_.assign(side * side, 0);
-    floor_.assign(side * side, 0);
-    EXPECT_EQ(map_.configure(params_, geometry_, {evidence_, height_, seen_, floor_}), Status::ok);
+    EXPECT_EQ(map_.configure(params_, geometry_, arrays_.make(geometry_, params_.size_m)), Status::ok);
     RouteMemory memory{bytes_[0], bytes_[1], bytes_[2], words_[0], words_[1], words_[2], bytes_[3]};
     EXPECT_EQ(planner_.configure(route_params_, geometry_.cell_mm, memory), Status::ok);
   }
@@ -70,10 +66,7 @@ class RouteWorld : public ::testing::Test {
   GridGeometry geometry_{.rows = 70, .cols = 140, .cell_mm = 100};
   RollingMapParams params_;
   RouteParams route_params_;
-  std::vector<std::uint8_t> evidence_;
-  std::vector<std::int16_t> height_;
-  std::vector<std::uint32_t> seen_;
-  std::vector<std::uint8_t> floor_;
+  RollingMapArrays arrays_;
   Image<std::uint8_t> type_{140, 70};
   Image<std::uint32_t> count_{140, 70};
   Image<std::int64_t> height_sum_{140, 70};

@@ -340,7 +340,7 @@ TEST_F(RollingMapTest, Refusals) {
   EXPECT_EQ(map.configure(params, geometry, {}), Status::size_mismatch);
   configure();
   EXPECT_EQ(map.view(type.view(), shown.view()), Status::bad_argument);
-  const RollingMapMemory memory{evidence, height, seen, floor};
+  const RollingMapMemory memory = arrays.make(geometry, params.size_m);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refuses = [&](auto change) {
     RollingMapParams p = params;

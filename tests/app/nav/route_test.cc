@@ -32,7 +32,7 @@ TEST_F(RouteTest, WhereNoFloorIsSeenTheWayIsNotClear) {
   see(nothing, [](double x, double y) { return std::hypot(x, y) > 0.3 && std::hypot(x, y) < 1.2; });
   const Route passed = plan(5, 0);
   EXPECT_GT(passed.clear_m, 4);
-  for (auto& e : evidence_)
+  for (auto& e : arrays_.evidence)
     e = 0;
   see(nothing, [](double x, double y) { return std::hypot(x, y) > 0.3; });
   const Route stopped = plan(5, 0);
