@@ -37,6 +37,7 @@ RollingMapParams rolling_map_params(const VehicleConfig& config, const Rectified
   p.latency_s = config.vehicle.latency_s;
   p.deceleration_mps2 = config.vehicle.deceleration_mps2;
   p.radius_m = config.vehicle.radius_m;
+  p.trim = config.planner.name == "route";
   p.camera = {.height_m = config.camera.height_m,
               .forward_m = config.camera.forward_m,
               .left_m = config.camera.left_m,

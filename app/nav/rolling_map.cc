@@ -120,6 +120,31 @@ int RollingMap::weight(double forward, double left, int near, int far) const {
   return std::max(far, static_cast<int>(near * near_m_ / std::sqrt(squared)));
 }
 
+// An obstacle that the frame shows in a cell, or that lies behind one.
+void RollingMap::hit(std::size_t i, int evidence, std::int64_t height_mm) {
+  if (memory_.evidence[i] <= kFree) memory_.height[i] = 0;
+  const int before = std::max<int>(memory_.evidence[i], kFree);
+  memory_.evidence[i] =
+      static_cast<std::uint8_t>(std::max(before, std::min(kFree + kMostHits * evidence, before + evidence)));
+  memory_.seen[i] = now_;
+  memory_.height[i] = static_cast<std::int16_t>(std::clamp<std::int64_t>(height_mm, memory_.height[i], 32767));
+}
+
+// Of what hangs, with floor in view below it, only the face is seen, and the floor below its back says nothing: kBody cells of it are taken
+// to be there.
+void RollingMap::add_body(const Sight& sight, int row, int col, int evidence, std::int64_t height_mm) {
+  const double forward = row + 0.5 - params_.camera.forward_m / cell_m_;
+  const double right = col + 0.5 - sight.half + params_.camera.left_m / cell_m_;
+  const double range = std::hypot(forward, right);
+  for (int n = 1; n <= kBody; ++n) {
+    const double r = row + 0.5 + n * forward / range;
+    const double c = col + 0.5 + n * right / range;
+    const std::int64_t x = cell_of(sight.x(r, c));
+    const std::int64_t y = cell_of(sight.y(r, c));
+    if (holds(x, y)) hit(index(x, y), evidence, height_mm);
+  }
+}
+
 void RollingMap::add_obstacles(const NavGrid& frame, const Sight& sight) {
   for (int r = 0; r < geometry_.rows; ++r) {
     for (int c = 0; c < geometry_.cols; ++c) {
@@ -128,18 +153,14 @@ void RollingMap::add_obstacles(const NavGrid& frame, const Sight& sight) {
       const std::int64_t y = cell_of(sight.y(r + 0.5, c + 0.5));
       if (!holds(x, y)) continue;
       const std::size_t i = index(x, y);
-      const int hit = weight((r + 0.5) * cell_m_, (sight.half - c - 0.5) * cell_m_, kBelieved,
-                             (kBelieved + params_.far_hits - 1) / params_.far_hits);
-      if (memory_.evidence[i] <= kFree) memory_.height[i] = 0;
-      memory_.floor[i] = static_cast<std::uint8_t>(std::max(memory_.floor[i] - 1, 0));
-      const int before = std::max<int>(memory_.evidence[i], kFree);
-      memory_.evidence[i] =
-          static_cast<std::uint8_t>(std::max(before, std::min(kFree + kMostHits * hit, before + hit)));
-      memory_.seen[i] = now_;
+      const int evidence = weight((r + 0.5) * cell_m_, (sight.half - c - 0.5) * cell_m_, kBelieved,
+                                  (kBelieved + params_.far_hits - 1) / params_.far_hits);
       const std::uint32_t count = frame.count.at(c, r);
-      if (count == 0) continue;  // a drop-off
-      const std::int64_t mean = frame.height_sum.at(c, r) / count;
-      memory_.height[i] = static_cast<std::int16_t>(std::clamp<std::int64_t>(mean, memory_.height[i], 32767));
+      const std::int64_t mean = count > 0 ? frame.height_sum.at(c, r) / count : 0;  // none: a drop-off
+      const bool hangs = mean >= kBodyMm && kBodyFloor * frame.floor_count.at(c, r) >= count;
+      memory_.floor[i] = static_cast<std::uint8_t>(std::max(memory_.floor[i] - 1, 0));
+      hit(i, evidence, mean);
+      if (hangs) add_body(sight, r, c, evidence, mean);
     }
   }
 }
@@ -168,7 +189,9 @@ void RollingMap::stand_here(const Sight& sight) {
 }
 
 Status RollingMap::add(const NavGrid& frame, const MapPose& at, ImageView<const std::int16_t> disparity) {
-  if (side_ == 0 || !frame_fits(frame, geometry_) || !is_finite(at, cell_m_)) return Status::bad_argument;
+  if (side_ == 0 || !frame_fits(frame, geometry_) || !same_size(frame.floor_count, frame.type) ||
+      !is_finite(at, cell_m_))
+    return Status::bad_argument;
   const Sight sight(geometry_, at.pose, cell_m_);
   const std::int64_t x = cell_of(sight.east) - side_ / 2;
   const std::int64_t y = cell_of(sight.north) - side_ / 2;

@@ -13,9 +13,12 @@
 // border of what it can match, so that floor seems to go on into a wall that shows nothing.
 // Floor seen below something does not clear it: an obstacle loses evidence only where the camera's upper edge, as far away as the
 // cell is, lies above the greatest mean height that the cell was seen with. So a bar or a table top that has left the image at
-// the top stays. What is higher than kHangingMm must also not be seen any more where it was (depth_view.h): a board shows few pixels
-// and much floor behind and below them. Where there is nothing to be seen it loses less. Where no floor is seen, as in the blind zone,
-// it loses kCleared while what lies behind it is seen, and leaves unknown ground: who stood right before the vehicle has gone.
+// the top stays. Behind the face of what hangs, with floor in view below it, kBody cells get the same evidence: a look at the floor could
+// not show the rest of it. What is higher than kHangingMm must also not be seen any more where it was (depth_view.h): a board shows
+// few pixels and much floor behind and below them. Where there is nothing to be seen it loses less. Where no floor is seen, as in the
+// blind zone, it loses kCleared while what lies behind it is seen, and leaves unknown ground: who stood right before the vehicle has gone.
+// With `trim`, an obstacle cell that a frame does not show, though it shows its neighbour, which is no nearer, loses kTrimmed: a thing
+// seen from several places is else drawn out by one cell to each side, and a gap of 1 m closes.
 // What came to ground that was seen free before, was_free(), may go again: the planner doubts it first.
 // What is an obstacle below the vehicle, kSunk cells or more within its radius, cannot be there and is forgotten; what is at its edge
 // may touch it and stays. Unknown ground below it stays unknown: it says nothing about the way on.
@@ -59,6 +62,7 @@ struct RollingMapParams {
   double latency_s = 0.25;  // of braking
   double deceleration_mps2 = 2.0;  // of braking, > 0
   double radius_m = 0.35;          // the vehicle's
+  bool trim = false;  // for a planner that keeps a distance of its own: faces are worn down to what one view shows
   UpperEdge camera;
   double view = 0;  // half of the camera's field of view, rad, within 1.5; 0: free ground is never doubted
   double row_m =
@@ -87,6 +91,7 @@ class RollingMap {
   static constexpr int kMostFar = kMostHits * kBelieved / 2;  // what was never seen from near by has no more
   static constexpr int kCleared = 6;
   static constexpr int kClearedFar = 2;
+  static constexpr int kTrimmed = 6;       // lost by what a frame does not show, though it shows its neighbour
   static constexpr int kHidden = 1;        // lost by what only a distant view has shown, and is hidden now
   static constexpr double kHiddenM = 0.3;  // by something that is nearer by more than this
   static constexpr double kBesideM = 0.3;  // beyond blind_m: farther away a face is thick behind only
@@ -99,6 +104,9 @@ class RollingMap {
   static constexpr int kBorderRows = 5;
   static constexpr int kFarBorder = 6;  // cells: where those rows cover more, any floor counts
   static constexpr int kHangingMm = 300;
+  static constexpr int kBodyMm = 600;    // what is seen so high, on the average ...
+  static constexpr int kBodyFloor = 6;   // ... with one pixel of floor for so many of its own, hangs
+  static constexpr int kBody = 2;        // cells behind the face of what hangs
   static constexpr int kFreeCounts = 2;  // a frame that sees floor, against one that sees an obstacle
   static constexpr int kMostFree = 40;
   static constexpr int kOftenFree = 6;
@@ -110,7 +118,7 @@ class RollingMap {
   Status configure(const RollingMapParams& params, const GridGeometry& geometry, const RollingMapMemory& memory);
   void reset();
 
-  // Takes a frame in: type, count and height_sum are read; disparity: that the frame was made from, empty where there is none. Poses in
+  // Takes a frame in: type, count, height_sum and floor_count are read; disparity: that the frame was made from, empty where there is none. Poses in
   // order of time. bad_argument: not of the geometry, or a pose that is not finite or beyond 10^8 cells; the map is then as before.
   Status add(const NavGrid& frame, const MapPose& at, ImageView<const std::int16_t> disparity = {});
 
@@ -157,12 +165,15 @@ class RollingMap {
   void find_shadows(const NavGrid& frame, const Sight& sight);
   bool is_hidden(double forward, double left) const;
   void lose(std::size_t i, int evidence);
+  bool is_beside_hit(const NavGrid& frame, int row, int col) const;
   bool floor_goes_on(const NavGrid& frame, int row, int col) const;
   bool looked_in_vain(std::size_t i) const { return memory_.evidence[i] == 0 && memory_.height[i] >= kDoubts; }
   bool is_refuted(std::size_t i, double forward, double left) const;
   void look_in_vain(std::size_t i, double forward, double left);
   bool looks_at(double forward, double left) const;
   bool sees_height(std::size_t i, double forward, double left) const;
+  void hit(std::size_t i, int evidence, std::int64_t height_mm);
+  void add_body(const Sight& sight, int row, int col, int evidence, std::int64_t height_mm);
   void add_obstacles(const NavGrid& frame, const Sight& sight);
   void stand_here(const Sight& sight);
   Run run_of(const Sight& sight, std::int64_t y) const;

@@ -96,6 +96,24 @@ bool RollingMap::floor_goes_on(const NavGrid& frame, int row, int col) const {
   return false;
 }
 
+// Whether the frame has an obstacle in a neighbouring cell that is no nearer, and not in this one, which it should see as well: it is the
+// same thing, and was put here by the error of a depth or of a pose. Near by its foot may be out of view.
+bool RollingMap::is_beside_hit(const NavGrid& frame, int row, int col) const {
+  if (!params_.trim) return false;
+  const int left = geometry_.cols - 1 - 2 * col;  // half cells
+  const int range2 = (2 * row + 1) * (2 * row + 1) + left * left;
+  const double least = 2 * (params_.blind_m + kBesideM) / cell_m_;
+  if (range2 < least * least) return false;
+  for (const auto& [dr, dc] : {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
+    const int r = row + dr;
+    const int c = col + dc;
+    if (r < 0 || r >= geometry_.rows || c < 0 || c >= geometry_.cols) continue;
+    const int beside = geometry_.cols - 1 - 2 * c;
+    if ((2 * r + 1) * (2 * r + 1) + beside * beside >= range2 && frame.type.at(c, r) == kCellObstacle) return true;
+  }
+  return false;
+}
+
 // Where the frame's obstacles are, for is_hidden().
 void RollingMap::find_shadows(const NavGrid& frame, const Sight& sight) {
   shadow_.clear();
@@ -151,6 +169,8 @@ void RollingMap::clear_seen_free(const NavGrid& frame, const Sight& sight,
       if (evidence <= kFree) memory_.height[i] = 0;
     } else if (evidence <= kFree) {
       look_in_vain(i, forward, left);
+    } else if (is_beside_hit(frame, r, c)) {
+      lose(i, kTrimmed);
     } else if (is_hidden(forward, left)) {
       if (evidence <= kFree + kMostFar) lose(i, kHidden);
     } else {

@@ -130,6 +130,7 @@ class DiscDrive {
     frame.type = type_.view();
     frame.count = count_.view();
     frame.height_sum = height_sum_.view();
+    frame.floor_count = floor_count_.view();
     const MapPose at{pose, static_cast<std::int64_t>(step) * 20'000'000};
     EXPECT_EQ(map_.add(frame, at), Status::ok);
     EXPECT_EQ(map_.view(type_.view(), shown_.view()), Status::ok);
@@ -245,6 +246,7 @@ class DiscDrive {
   Image<std::uint8_t> shown_{80, 60, kCellUnknown};
   Image<std::uint32_t> count_{80, 60, 0};
   Image<std::int64_t> height_sum_{80, 60, 0};
+  Image<std::uint32_t> floor_count_{80, 60, 0};
   RollingMapArrays arrays_;
   std::vector<PolarEntry> table_ = std::vector<PolarEntry>(4800);
   RollingMap map_;

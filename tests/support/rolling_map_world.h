@@ -43,6 +43,7 @@ class RollingMapWorld : public ::testing::Test {
     grid.geometry = geometry;
     grid.count = count.view();
     grid.height_sum = height_sum.view();
+    grid.floor_count = floor_count.view();
     grid.type = type.view();
     return grid;
   }
@@ -73,6 +74,7 @@ class RollingMapWorld : public ::testing::Test {
   Image<std::uint8_t> shown{80, 60, kCellUnknown};
   Image<std::uint32_t> count{80, 60, 0};
   Image<std::int64_t> height_sum{80, 60, 0};
+  Image<std::uint32_t> floor_count{80, 60, 0};
   RollingMapArrays arrays;
   RollingMapParams params;
   RollingMap map;

@@ -52,6 +52,7 @@ class RouteWorld : public ::testing::Test {
       grid.type = type_.view();
       grid.count = count_.view();
       grid.height_sum = height_sum_.view();
+      grid.floor_count = floor_count_.view();
       time_ += 100'000'000;
       ASSERT_EQ(map_.add(grid, {pose, time_}), Status::ok);
     }
@@ -70,6 +71,7 @@ class RouteWorld : public ::testing::Test {
   Image<std::uint8_t> type_{140, 70};
   Image<std::uint32_t> count_{140, 70};
   Image<std::int64_t> height_sum_{140, 70};
+  Image<std::uint32_t> floor_count_{140, 70};
   std::vector<std::uint8_t> bytes_[4] = {
       std::vector<std::uint8_t>(kRouteCells), std::vector<std::uint8_t>(kRouteCells),
       std::vector<std::uint8_t>(kRouteCells), std::vector<std::uint8_t>(kRouteCells)};
