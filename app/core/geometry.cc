@@ -59,6 +59,11 @@ RollingMapParams rolling_map_params(const VehicleConfig& config, const Rectified
   return p;
 }
 
+SlopeParams slope_params(const VehicleConfig& config) {
+  return {.steepest_percent = static_cast<int>(std::lround(100 * std::tan(config.prune.slope_deg * kDegree))),
+          .tolerance_mm = static_cast<int>(std::lround(1000 * config.prune.floor_tolerance_m))};
+}
+
 RouteParams route_params(const VehicleConfig& config, const RectifiedGeometry& camera) {
   RouteParams p;
   p.radius_m = config.vehicle.radius_m;

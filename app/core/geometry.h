@@ -9,6 +9,7 @@
 #include "kernels/ground/ground.h"
 #include "kernels/prune/prune.h"
 #include "kernels/score/score.h"
+#include "kernels/slope/slope.h"
 
 namespace lakshya {
 
@@ -22,6 +23,8 @@ RouteParams route_params(const VehicleConfig& config, const RectifiedGeometry& c
 RollingMapParams rolling_map_params(const VehicleConfig& config, const RectifiedGeometry& camera);
 PruneGeometry prune_geometry(const VehicleConfig& config, const RectifiedGeometry& camera);
 ScoreGeometry score_geometry(const VehicleConfig& config, const RectifiedGeometry& camera);
+
+SlopeParams slope_params(const VehicleConfig& config);
 
 // What a change of pitch does to the floor's disparity, 1/16 px rounded up: (f B / H) * angle; at most
 // kGroundReach.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "app/core/geometry.h"
 #include "app/core/input_error.h"
@@ -21,6 +22,10 @@ constexpr std::size_t kMaxArenaBytes = std::size_t{4} << 30;
 
 bool rolls(const VehicleConfig& config) {
   return config.map.rolling == "yes";
+}
+
+bool finds_slopes(const VehicleConfig& config, const RectifiedGeometry& camera) {
+  return config.prune.slope_deg > 0 && camera.width >= kSlopeStrips && camera.height >= kSlopeBins;
 }
 
 std::size_t size(int n) {
@@ -132,6 +137,8 @@ Pipeline::Buffers::Buffers(const VehicleConfig& config, const RectifiedGeometry&
       project_scratch(arena.take<std::byte>(size(config.matcher.bands) * project_scratch_bytes(camera.width))),
       counts(arena.take<PixelCounts>(size(config.matcher.bands))),
       residuals(arena.take<GroundHistogram>(size(config.matcher.bands))),
+      levelled(finds_slopes(config, camera) ? arena.take_image<std::int16_t>(camera.width, camera.height)
+                                            : ImageView<std::int16_t>{}),
       maps(take_maps(grid_geometry(config.grid), config.matcher.bands, arena)),
       thresholds(arena.take<CellThresholds>(size(config.grid.rows) * size(config.grid.cols))),
       polar_table(arena.take<PolarEntry>(polar_table_entries(grid_geometry(config.grid)))),
@@ -188,6 +195,7 @@ Pipeline::Pipeline(const VehicleConfig& config, const StereoCalibration& calibra
   ground_rate16_ = disparity_of_pitch16(config, camera_, config.prune.ground_rate_deg);
   floor_scatter16_ = static_cast<std::int32_t>(std::lround(config.prune.disparity_sigma_px * kDisparityScale));
   floor_widening_ = std::llround(config.prune.sigma_factor * (1 << kDisparityToQ16));
+  slope_params_ = slope_params(config);
   require(build_score_table(b.maps[0].geometry, score_geometry(config, camera_), b.thresholds), "score");
   if (rolls_) {
     require(rolling_map_.configure(rolling_map_params(config, camera_), b.maps[0].geometry, b.rolling), "map");
@@ -230,6 +238,7 @@ void Pipeline::make_maps(const StereoCalibration& calibration) {
 void Pipeline::begin_anew() {
   prune_model_ = mount_model_;
   ground_offset16_.reset();
+  slopes_ = {};
   plan_state_ = {};
   if (rolls_) rolling_map_.reset();
   if (route_planner_) route_planner_->reset();
@@ -288,6 +297,19 @@ Status Pipeline::find_ground(FrameResult& result) {
   return status;
 }
 
+Status Pipeline::level_slopes(FrameResult& result) {
+  result.levelled = result.disparity;
+  const ImageView<std::int16_t> levelled = buffers_->levelled;
+  if (levelled.data == nullptr) return Status::ok;
+  const Status found = find_slopes(prune_model_, slope_params_, result.disparity, slopes_);
+  if (found != Status::ok || std::none_of(slopes_.begin(), slopes_.end(), std::mem_fn(&SlopeStrip::found)))
+    return found;
+  result.levelled = levelled;
+  return over_bands(kSlopeStrips, [&](int strip) {
+    return level_strip(prune_model_, slope_params_, slopes_, result.disparity, strip, levelled);
+  });
+}
+
 Status Pipeline::project_and_bin(FrameResult& result) {
   Buffers& b = *buffers_;
   std::fill(b.counts.begin(), b.counts.end(), PixelCounts{});
@@ -296,7 +318,7 @@ Status Pipeline::project_and_bin(FrameResult& result) {
   const Status cleared = over_bands(maps, maps, [&](int map) { return clear_grid(b.maps[size(map)]); });
   // Every thread counts into a map of its own.
   const Status counted = over_bands(bands_, maps, [&](int band) {
-    return kernels_->project_rows(prune_model_, result.disparity, band_rows(band),
+    return kernels_->project_rows(prune_model_, result.levelled, band_rows(band),
                                   b.maps[size(omp_get_thread_num())], b.counts[size(band)], b.classes,
                                   b.project_scratch.subspan(size(band) * scratch, scratch));
   });
@@ -363,7 +385,10 @@ Status Pipeline::process(ImageView<const std::uint8_t> left, ImageView<const std
     return buffers_->matcher.match(result.left, result.right, result.disparity, clock_, &result.times.match);
   });
   if (status != Status::ok) return status;
-  status = timed(*clock_, Stage::ground, result, [&] { return find_ground(result); });
+  status = timed(*clock_, Stage::ground, result, [&] {
+    const Status ground = find_ground(result);
+    return ground == Status::ok ? level_slopes(result) : ground;
+  });
   if (status != Status::ok) return status;
   status = timed(*clock_, Stage::project_and_bin, result, [&] { return project_and_bin(result); });
   if (status != Status::ok) return status;

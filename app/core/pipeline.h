@@ -20,6 +20,7 @@
 #include "app/nav/planner.h"
 #include "app/nav/rolling_map.h"
 #include "hal/clock.h"
+#include "kernels/slope/slope.h"
 
 namespace lakshya {
 
@@ -32,6 +33,7 @@ struct FrameResult {
   ImageView<const std::int16_t> disparity;  // stored, 1/16 px or NoDisparity
   ImageView<const PixelClass> classes;
   std::int32_t ground_offset16 = 0;  // the floor's disparity against the mount's plane, 1/16 px (kernels/ground)
+  ImageView<const std::int16_t> levelled;  // the disparity as if the ground did not rise or fall (kernels/slope)
   PixelCounts pixels;
   NavGrid grid;                       // of this frame alone
   ImageView<const std::uint8_t> map;  // what was planned with: the rolling map's cells, or grid.type
@@ -101,6 +103,7 @@ class Pipeline {
     std::span<std::byte> project_scratch;  // project_scratch_bytes() for every band
     std::span<PixelCounts> counts;
     std::span<GroundHistogram> residuals;
+    ImageView<std::int16_t> levelled;  // the disparity with its slopes taken out
     std::vector<NavGrid> maps;
     std::span<CellThresholds> thresholds;
     std::span<PolarEntry> polar_table;
@@ -111,6 +114,7 @@ class Pipeline {
   void make_maps(const StereoCalibration& calibration);
   Status rectify(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, FrameResult& result);
   Status find_ground(FrameResult& result);
+  Status level_slopes(FrameResult& result);
   Status project_and_bin(FrameResult& result);
   Status remember(const PlanInput& input, FrameResult& result);
   Status plan(const PlanInput& input, FrameResult& result);
@@ -131,8 +135,10 @@ class Pipeline {
   PruneModel prune_model_;  // the mount's, with the floor where this frame shows it
   std::int32_t ground_range16_ = 0;
   std::int32_t ground_rate16_ = 0;
-  std::int32_t floor_scatter16_ = 0;             // that the model knows of
-  std::int64_t floor_widening_ = 0;              // Q16 px for each 1/16 px beyond
+  std::int32_t floor_scatter16_ = 0;  // that the model knows of
+  std::int64_t floor_widening_ = 0;   // Q16 px for each 1/16 px beyond
+  SlopeParams slope_params_;
+  Slopes slopes_;                                // of the last frame
   std::optional<std::int32_t> ground_offset16_;  // of the last frame
   RollingMap rolling_map_;
   std::unique_ptr<RoutePlanner> route_planner_;  // null where nothing searches for a route

@@ -183,6 +183,9 @@ void visit_prune_keys(Prune& c, Visitor& v) {
     c.ground_range_deg, Range{0, 5});
   v(Key{"prune.ground_rate_deg", "deg", "By how much that correction may change from one frame to the next"},
     c.ground_rate_deg, Range{0, 5});
+  v(Key{"prune.slope_deg", "deg",
+        "The steepest ramp, up or down, that is driven: ground that rises or falls less is floor; 0: none is"},
+    c.slope_deg, Range{0, 20});
 }
 
 template <class Grid, class Visitor>

@@ -111,6 +111,19 @@ TEST(SimCommand, ALaserDoesNotSeeATableTop) {
   EXPECT_EQ(lines_of(stereo.out).front()["result"], "reached") << stereo.out;
 }
 
+// Up, along a platform and down again; the way round it is 26 m long.
+TEST(SimCommand, DrivesOverARamp) {
+  for (const std::string sensor : {"truth", "stereo"}) {
+    const Outcome r = run_lakshya("sim --world ramp --seed 1 --json --sensor " + sensor);
+    ASSERT_EQ(r.exit_code, 0) << r.err;
+    const Json run = lines_of(r.out).front();
+    EXPECT_EQ(run["result"], "reached") << sensor;
+    EXPECT_LT(run["path_m"].get<double>(), 14) << sensor;
+  }
+  const Outcome r = run_lakshya("sim --world ramp --seed 1 --json --sensor truth --set prune.slope_deg=0");
+  EXPECT_GT(lines_of(r.out).front()["path_m"].get<double>(), 20) << r.out;
+}
+
 TEST(SimCommand, RefusesBadInput) {
   const TempFolder folder;
   const Outcome unknown = run_lakshya("sim --world nowhere");

@@ -1,0 +1,289 @@
+#include "kernels/slope/slope.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <functional>
+#include <optional>
+
+#include "kernels/base/units.h"
+
+namespace lakshya {
+namespace {
+
+constexpr int kReach16 = 4 * kDisparityScale;  // of a residual
+
+// Residuals of some pixels.
+struct Histogram {
+  std::array<std::uint16_t, 2 * kReach16 + 1> count{};
+  int inside = 0;
+  int pixels = 0;
+
+  void add(const Histogram& other) {
+    for (std::size_t i = 0; i < count.size(); ++i)
+      count[i] = static_cast<std::uint16_t>(count[i] + other.count[i]);
+    inside += other.inside;
+    pixels += other.pixels;
+  }
+};
+using BinOfStrips = std::array<Histogram, kSlopeStrips>;
+
+struct Box {
+  int left, right, top, bottom;
+};
+
+Box box_of(ImageView<const std::int16_t> image, int strip, int bin) {
+  return {image.width * strip / kSlopeStrips, image.width * (strip + 1) / kSlopeStrips,
+          image.height * bin / kSlopeBins, image.height * (bin + 1) / kSlopeBins};
+}
+
+std::int64_t to_sixteenths(std::int64_t q16) {
+  return (q16 + (1 << (kDisparityToQ16 - 1))) >> kDisparityToQ16;
+}
+
+bool floor_is_matched(const PruneModel& m, int u, int v) {
+  const std::int64_t floor = m.floor.at(u, v);
+  return floor > m.min_disparity && floor <= m.max_floor_disparity;
+}
+
+Histogram histogram_of(const PruneModel& m, ImageView<const std::int16_t> disparity, const Box& box) {
+  Histogram h;
+  h.pixels = (box.right - box.left) * (box.bottom - box.top);
+  for (int v = box.top; v < box.bottom; ++v) {
+    for (int u = box.left; u < box.right; ++u) {
+      const std::int16_t d = disparity.at(u, v);
+      if (d <= 0) continue;
+      const std::int64_t residual = d - to_sixteenths(m.floor.at(u, v));
+      if (std::abs(residual) > kReach16) continue;
+      ++h.count[static_cast<std::size_t>(residual + kReach16)];
+      ++h.inside;
+    }
+  }
+  return h;
+}
+
+// Where most pixels lie.
+struct Level {
+  int residual16 = 0;
+  int percent = 0;  // of those with a disparity that lie there
+};
+
+std::optional<Level> level_of(const Histogram& h) {
+  if (h.inside == 0 || h.inside * 100 < h.pixels * kSlopeSeenPercent) return std::nullopt;
+  int median = 0;
+  for (int below = h.count[0]; 2 * below < h.inside; below += h.count[static_cast<std::size_t>(median)])
+    ++median;
+  int near = 0;
+  for (int k = std::max(median - kSlopeInlier, 0); k <= std::min(median + kSlopeInlier, 2 * kReach16); ++k)
+    near += h.count[static_cast<std::size_t>(k)];
+  return Level{median - kReach16, near * 100 / h.inside};
+}
+
+// Of a strip's ground in a bin; none: its pixels do not lie at one height.
+std::optional<int> residual_of(const BinOfStrips& bin, int strip) {
+  std::optional<Level> best;
+  for (const int first : {strip - 1, strip - 2, strip}) {
+    Histogram sum;
+    for (int s = std::max(first, 0); s <= std::min(first + 2, kSlopeStrips - 1); ++s)
+      sum.add(bin[static_cast<std::size_t>(s)]);
+    const std::optional<Level> level = level_of(sum);
+    if (level && (!best || level->percent > best->percent)) best = level;
+  }
+  if (!best || best->percent < kSlopeInlierPercent) best = level_of(bin[static_cast<std::size_t>(strip)]);
+  if (!best || best->percent < kSlopeInlierPercent) return std::nullopt;
+  return best->residual16;
+}
+
+struct Place {
+  std::int64_t forward_mm = 0;
+  std::int64_t height_mm = 0;
+  std::int64_t noise_mm = 0;  // of the height
+};
+
+Place place_of(const PruneModel& m, const Box& box, int residual16) {
+  const int u = (box.left + box.right) / 2;
+  const int v = (box.top + box.bottom) / 2;
+  const auto d16 =
+      static_cast<std::int16_t>(std::max<std::int64_t>(to_sixteenths(m.floor.at(u, v)) + residual16, 1));
+  const ObstaclePoint p = reproject_pixel(m, u, v, d16);
+  return {p.forward_mm, p.height_mm, std::int64_t{m.height_mm} * kSlopeNoise / d16};
+}
+
+bool can_drive(const SlopeParams& params, const Place& from, const Place& to) {
+  const std::int64_t way = std::max<std::int64_t>(to.forward_mm - from.forward_mm, 0);
+  const std::int64_t rise = std::abs(to.height_mm - from.height_mm) - from.noise_mm - to.noise_mm;
+  return rise * 100 <= way * params.steepest_percent;
+}
+
+// One strip's ground, from bin to bin.
+class Walk {
+ public:
+  Walk(const PruneModel& model, const SlopeParams& params, SlopeStrip& slope)
+      : model_(&model), params_(&params), slope_(&slope) {
+    slope = {};
+  }
+
+  bool goes_on() const { return goes_on_; }
+
+  void step(int bin, const Box& box, std::optional<int> residual) {
+    const std::optional<Place> place = residual ? std::optional(place_of(*model_, box, *residual)) : std::nullopt;
+    if (place && place->forward_mm > params_->reach_mm) {
+      stop(true);
+    } else if (place && fits(*place)) {
+      take(bin, *residual, *place);
+    } else if (walked_ == 0 || ++left_out_ > kSlopeLeftOut) {
+      stop(!place && walked_ > 0 && before(1).forward_mm > params_->drop_reach_mm);
+    }
+  }
+
+  void end(bool followed) {
+    if (walked_ > 0) {
+      slope_->forward_mm = static_cast<std::int32_t>(before(1).forward_mm);
+      slope_->height_mm = static_cast<std::int32_t>(before(1).height_mm);
+    }
+    if (!leaves_plane_ || walked_ < kSlopeStartBins || !(followed || comes_from_floor()))
+      slope_->first = slope_->end = 0;
+  }
+
+ private:
+  const Place& before(int n) const { return places_[static_cast<std::size_t>(walked_ - n)]; }
+
+  bool fits(const Place& place) const {
+    for (const int n : {1, 2, 4}) {
+      if (walked_ >= n && !can_drive(*params_, before(n), place)) return false;
+    }
+    return true;
+  }
+
+  void take(int bin, int residual, const Place& place) {
+    places_[static_cast<std::size_t>(walked_)] = place;
+    if (walked_ == 0) slope_->end = slope_->first = bin + 1;
+    const int last = walked_ == 0 ? residual : slope_->residual16[static_cast<std::size_t>(slope_->first)];
+    for (int b = bin; b < slope_->first; ++b)
+      slope_->residual16[static_cast<std::size_t>(b)] =
+          static_cast<std::int16_t>(b == bin ? residual : (residual + last) / 2);
+    slope_->first = bin;
+    ++walked_;
+    left_out_ = 0;
+    leaves_plane_ = leaves_plane_ || std::abs(place.height_mm) > params_->tolerance_mm;
+  }
+
+  void stop(bool ground_goes_on) {
+    goes_on_ = false;
+    slope_->goes_on = ground_goes_on;
+  }
+
+  // Whether ground that begins away from the mount's plane comes from it: seen back, it meets the plane before it is below the vehicle.
+  // The lowest bins may show the edge of a kerb below.
+  bool comes_from_floor() const {
+    if (std::abs(places_[0].height_mm) <= params_->tolerance_mm) return true;
+    if (walked_ < kSlopeEdgeBins + kSlopeStartBins) return false;
+    const Place& first = places_[kSlopeEdgeBins];
+    const Place& later = places_[static_cast<std::size_t>(std::min(walked_ - 1, kSlopeEdgeBins + kSlopeRunBins))];
+    const std::int64_t height = std::abs(first.height_mm);
+    const std::int64_t rise = (first.height_mm > 0 ? 1 : -1) * (later.height_mm - first.height_mm);
+    return (height - params_->tolerance_mm) * (later.forward_mm - first.forward_mm) <= rise * first.forward_mm;
+  }
+
+  const PruneModel* model_;
+  const SlopeParams* params_;
+  SlopeStrip* slope_;
+  std::array<Place, kSlopeBins> places_{};
+  int walked_ = 0;
+  int left_out_ = 0;
+  bool goes_on_ = true;
+  bool leaves_plane_ = false;
+};
+
+bool is_large_enough(ImageView<const std::int16_t> image) {
+  return image.width >= kSlopeStrips && image.height >= kSlopeBins;
+}
+
+// Of the ground at row v: a straight line between the middles of bins.
+int residual_at(const SlopeStrip& slope, int height, int v) {
+  const int at =
+      (2 * v + 1) * kSlopeBins - height;  // from the first bin's middle, in units of which a bin has 2 * height
+  const int bin = at < 0 ? -1 : at / (2 * height);
+  const int a = slope.residual16[static_cast<std::size_t>(std::clamp(bin, slope.first, slope.end - 1))];
+  const int b = slope.residual16[static_cast<std::size_t>(std::clamp(bin + 1, slope.first, slope.end - 1))];
+  const int part = at - bin * 2 * height;
+  return a + ((b - a) * part + (b >= a ? height : -height)) / (2 * height);
+}
+
+// Of a pixel above the slope's end in the image.
+bool says_nothing(const PruneModel& m, const SlopeParams& params, const SlopeStrip& slope, int u, int v,
+                  std::int16_t d16) {
+  const PixelClass pixel = classify_pixel(m, u, v, d16);
+  if (pixel != PixelClass::drop_off && !(pixel == PixelClass::obstacle && slope.goes_on)) return false;
+  const ObstaclePoint p = reproject_pixel(m, u, v, d16);
+  if (pixel == PixelClass::drop_off) return p.forward_mm > params.drop_reach_mm;
+  const std::int64_t way = p.forward_mm - slope.forward_mm;
+  const std::int64_t noise = std::int64_t{m.height_mm} * 2 * kSlopeNoise / d16;
+  const std::int64_t rise = p.height_mm - slope.height_mm - params.tolerance_mm - noise;
+  return rise * 100 <= way * params.steepest_percent;
+}
+
+}  // namespace
+
+Status find_slopes(const PruneModel& model, const SlopeParams& params, ImageView<const std::int16_t> disparity,
+                   Slopes& slopes) {
+  const bool followed =
+      std::count_if(slopes.begin(), slopes.end(), std::mem_fn(&SlopeStrip::found)) >= kSlopeFollowed;
+  slopes = {};
+  if (!is_large_enough(disparity)) return Status::size_mismatch;
+  if (params.steepest_percent <= 0) return Status::ok;
+  std::array<std::optional<Walk>, kSlopeStrips> walks;
+  for (std::size_t i = 0; i < walks.size(); ++i)
+    walks[i].emplace(model, params, slopes[i]);
+  bool begun = false;
+  bool any = true;
+  for (int bin = kSlopeBins - 1; bin >= 0 && any; --bin) {
+    const Box middle = box_of(disparity, kSlopeStrips / 2, bin);
+    if (!floor_is_matched(model, middle.left, middle.bottom - 1)) {
+      if (begun) break;
+      continue;  // too near to be matched
+    }
+    begun = true;
+    BinOfStrips strips;
+    for (int s = 0; s < kSlopeStrips; ++s)
+      strips[static_cast<std::size_t>(s)] = histogram_of(model, disparity, box_of(disparity, s, bin));
+    any = false;
+    for (int s = 0; s < kSlopeStrips; ++s) {
+      Walk& walk = *walks[static_cast<std::size_t>(s)];
+      if (walk.goes_on()) walk.step(bin, box_of(disparity, s, bin), residual_of(strips, s));
+      any = any || walk.goes_on();
+    }
+  }
+  for (std::optional<Walk>& walk : walks)
+    walk->end(followed);
+  return Status::ok;
+}
+
+Status level_strip(const PruneModel& model, const SlopeParams& params, const Slopes& slopes,
+                   ImageView<const std::int16_t> disparity, int strip, ImageView<std::int16_t> levelled) {
+  if (!is_large_enough(disparity) || !same_size(disparity, levelled)) return Status::size_mismatch;
+  if (strip < 0 || strip >= kSlopeStrips) return Status::bad_argument;
+  const SlopeStrip& slope = slopes[static_cast<std::size_t>(strip)];
+  const Box all = box_of(disparity, strip, 0);
+  const int begin = slope.found() ? box_of(disparity, strip, slope.first).top : 0;
+  const int end = slope.found() ? box_of(disparity, strip, slope.end - 1).bottom : 0;
+  for (int v = 0; v < disparity.height; ++v) {
+    const std::int16_t* const from = disparity.row(v);
+    std::int16_t* const to = levelled.row(v);
+    std::copy(from + all.left, from + all.right, to + all.left);
+    if (v >= end) continue;
+    const int residual = v < begin ? 0 : residual_at(slope, disparity.height, v);
+    for (int u = all.left; u < all.right; ++u) {
+      if (from[u] <= 0) continue;
+      if (v < begin) {
+        if (says_nothing(model, params, slope, u, v, from[u])) to[u] = 0;
+      } else {
+        const auto level = static_cast<std::int16_t>(from[u] - residual);
+        if (level > 0 && classify_pixel(model, u, v, level) == PixelClass::floor) to[u] = level;
+      }
+    }
+  }
+  return Status::ok;
+}
+
+}  // namespace lakshya
