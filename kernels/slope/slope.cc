@@ -15,13 +15,13 @@ constexpr int kReach16 = 4 * kDisparityScale;  // of a residual
 
 // Residuals of some pixels.
 struct Histogram {
-  std::array<std::uint16_t, 2 * kReach16 + 1> count{};
+  std::array<int, 2 * kReach16 + 1> count{};
   int inside = 0;
   int pixels = 0;
 
   void add(const Histogram& other) {
     for (std::size_t i = 0; i < count.size(); ++i)
-      count[i] = static_cast<std::uint16_t>(count[i] + other.count[i]);
+      count[i] += other.count[i];
     inside += other.inside;
     pixels += other.pixels;
   }
