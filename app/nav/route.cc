@@ -149,6 +149,7 @@ Status RoutePlanner::plan(const RollingMap& map, const Pose& pose, double target
   const double goal_x = target_east_m / cell_m_ - static_cast<double>(x_begin_);
   const double goal_y = target_north_m / cell_m_ - static_cast<double>(y_begin_);
   if (look_round(pose, target_east_m, target_north_m, route)) return Status::ok;
+  close_blank_walls(map);
   measure_distances();
   price_cells(map, pose, x, y);
   start_ = index(static_cast<int>(x), static_cast<int>(y));

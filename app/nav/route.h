@@ -98,6 +98,7 @@ class RoutePlanner {
   static int index(int x, int y) { return y * kRouteSide + x; }
   static bool inside(int x, int y) { return x >= 0 && x < kRouteSide && y >= 0 && y < kRouteSide; }
 
+  void close_blank_walls(const RollingMap& map);
   void measure_distances();
   void price_cells(const RollingMap& map, const Pose& pose, double x, double y);
   void search();

@@ -14,9 +14,30 @@ constexpr int kUnknown = 12;      // factor of an unknown cell, beyond that of a
 constexpr int kUnknownNear = 80;  // ... of one that the camera should have seen
 constexpr int kEscape = 150;      // ... of one that is too near to an obstacle, on the way out from there
 constexpr int kEscapeCells = 6;
+constexpr int kBlank = 4;      // of nine cells about one: a wall, not a spot on the floor
 constexpr double kKept = 0.7;  // share of its cost that a cell of the last way has
 
 }  // namespace
+
+// Ground that was looked at in vain is a wall that shows nothing to match where there is more of it than a spot; the way may lead past it at
+// the vehicle's distance, not through it. The factors are not in use yet.
+void RoutePlanner::close_blank_walls(const RollingMap& map) {
+  const auto cell = [](int x, int y) { return static_cast<std::size_t>(index(x, y)); };
+  for (int v = 0; v < kRouteSide; ++v) {
+    for (int u = 0; u < kRouteSide; ++u)
+      memory_.factor[cell(u, v)] =
+          memory_.type[cell(u, v)] == kCellUnknown && map.looked_in_vain(x_begin_ + u, y_begin_ + v) ? 1 : 0;
+  }
+  for (int v = 1; v < kRouteSide - 1; ++v) {
+    for (int u = 1; u < kRouteSide - 1; ++u) {
+      if (memory_.factor[cell(u, v)] == 0) continue;
+      int blank = 0;
+      for (int y = v - 1; y <= v + 1; ++y)
+        blank += memory_.factor[cell(u - 1, y)] + memory_.factor[cell(u, y)] + memory_.factor[cell(u + 1, y)];
+      if (blank >= kBlank) memory_.type[cell(u, v)] = kCellObstacle;
+    }
+  }
+}
 
 // Squared distance of every cell to the nearest obstacle cell, up to kRouteReach.
 void RoutePlanner::measure_distances() {

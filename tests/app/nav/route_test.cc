@@ -111,6 +111,40 @@ TEST_F(RouteTest, KeepsToTheMiddleOfAGap) {
   EXPECT_GT(least, 0.45);
 }
 
+// Between a box and a wall that the camera looked at from near by, and which showed nothing.
+TEST_F(RouteTest, KeepsOffAWallThatShowsNothing) {
+  params_.view = radians(60);
+  ASSERT_EQ(map_.configure(params_, geometry_, arrays_.make(geometry_, params_.size_m)), Status::ok);
+  const auto box = [](double x, double y) { return x > 1.3 && x < 1.9 && y < -0.6 && y > -3; };
+  const auto wall = [](double x, double y) { return x > 0.9 && x < 2.2 && y > 0.7 && y < 3; };
+  for (int k = 0; k < RollingMap::kDoubts; ++k)
+    see(box, wall);
+  double least = 1;
+  Pose pose{0, 0.5, 0};
+  for (int k = 0; k < 60; ++k) {
+    const Route route = plan(4, 0.6, pose);
+    ASSERT_TRUE(route.found);
+    pose.yaw += route.direction;
+    pose.east_m += 0.05 * std::cos(pose.yaw);
+    pose.north_m += 0.05 * std::sin(pose.yaw);
+    if (pose.east_m > 0.9 && pose.east_m < 1.9) least = std::min(least, 0.7 - pose.north_m);
+  }
+  EXPECT_GT(pose.east_m, 2.2);
+  EXPECT_GT(least, route_params_.radius_m);
+}
+
+TEST_F(RouteTest, ASpotThatShowsNothingIsNoWall) {
+  params_.view = radians(60);
+  ASSERT_EQ(map_.configure(params_, geometry_, arrays_.make(geometry_, params_.size_m)), Status::ok);
+  const auto gap = [](double x, double y) { return x > 1.5 && x < 2 && std::abs(y) > 0.5; };
+  const auto spot = [](double x, double y) { return x > 1.6 && x < 1.8 && y > 0 && y < 0.1; };
+  for (int k = 0; k < RollingMap::kDoubts; ++k)
+    see(gap, spot);
+  const Route route = plan(4, 0);
+  EXPECT_TRUE(route.reaches_target);
+  EXPECT_LT(std::abs(route.direction), radians(20));
+}
+
 TEST_F(RouteTest, KeepsToTheWayThatItHasBegun) {
   // Two ways round a block that are as good, and a target that sways between them.
   see([](double x, double y) { return x > 1.5 && x < 2.5 && std::abs(y) < 1; });
