@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "kernels/base/units.h"
+#include "kernels/slope/slope_bins.h"
 
 namespace lakshya {
 namespace {
@@ -28,15 +29,6 @@ struct Histogram {
 };
 using BinOfStrips = std::array<Histogram, kSlopeStrips>;
 
-struct Box {
-  int left, right, top, bottom;
-};
-
-Box box_of(ImageView<const std::int16_t> image, int strip, int bin) {
-  return {image.width * strip / kSlopeStrips, image.width * (strip + 1) / kSlopeStrips,
-          image.height * bin / kSlopeBins, image.height * (bin + 1) / kSlopeBins};
-}
-
 std::int64_t to_sixteenths(std::int64_t q16) {
   return (q16 + (1 << (kDisparityToQ16 - 1))) >> kDisparityToQ16;
 }
@@ -46,7 +38,7 @@ bool floor_is_matched(const PruneModel& m, int u, int v) {
   return floor > m.min_disparity && floor <= m.max_floor_disparity;
 }
 
-Histogram histogram_of(const PruneModel& m, ImageView<const std::int16_t> disparity, const Box& box) {
+Histogram histogram_of(const PruneModel& m, ImageView<const std::int16_t> disparity, const SlopeBox& box) {
   Histogram h;
   h.pixels = (box.right - box.left) * (box.bottom - box.top);
   for (int v = box.top; v < box.bottom; ++v) {
@@ -96,17 +88,18 @@ std::optional<int> residual_of(const BinOfStrips& bin, int strip) {
 
 struct Place {
   std::int64_t forward_mm = 0;
+  std::int64_t left_mm = 0;
   std::int64_t height_mm = 0;
   std::int64_t noise_mm = 0;  // of the height
 };
 
-Place place_of(const PruneModel& m, const Box& box, int residual16) {
+Place place_of(const PruneModel& m, const SlopeBox& box, int residual16) {
   const int u = (box.left + box.right) / 2;
   const int v = (box.top + box.bottom) / 2;
   const auto d16 =
       static_cast<std::int16_t>(std::max<std::int64_t>(to_sixteenths(m.floor.at(u, v)) + residual16, 1));
   const ObstaclePoint p = reproject_pixel(m, u, v, d16);
-  return {p.forward_mm, p.height_mm, std::int64_t{m.height_mm} * kSlopeNoise / d16};
+  return {p.forward_mm, p.left_mm, p.height_mm, std::int64_t{m.height_mm} * kSlopeNoise / d16};
 }
 
 bool can_drive(const SlopeParams& params, const Place& from, const Place& to) {
@@ -115,23 +108,48 @@ bool can_drive(const SlopeParams& params, const Place& from, const Place& to) {
   return rise * 100 <= way * params.steepest_percent;
 }
 
+// Whether ground is too high or too low beside other ground for a drivable slope between them.
+bool is_step(const SlopeParams& params, const Place& here, const Place& beside) {
+  const std::int64_t way = std::abs(beside.left_mm - here.left_mm);
+  const std::int64_t step = std::abs(beside.height_mm - here.height_mm) - std::max(here.noise_mm, beside.noise_mm);
+  return step * 100 > way * params.steepest_percent;
+}
+
 // One strip's ground, from bin to bin.
 class Walk {
  public:
   Walk(const PruneModel& model, const SlopeParams& params, SlopeStrip& slope)
       : model_(&model), params_(&params), slope_(&slope) {
     slope = {};
+    at_.fill(-1);
   }
 
   bool goes_on() const { return goes_on_; }
 
-  void step(int bin, const Box& box, std::optional<int> residual) {
+  // Of the ground in a bin; null: it was not found there.
+  const Place* place(int bin) const {
+    const int at = at_[static_cast<std::size_t>(bin)];
+    return at < 0 ? nullptr : &places_[static_cast<std::size_t>(at)];
+  }
+
+  // Where the ground is higher or lower than the plane, and the next strip's is not as high or low, it has a side.
+  void find_sides(const Walk& beside) {
+    for (int bin = slope_->first; bin < slope_->end; ++bin) {
+      const Place* const here = place(bin);
+      const Place* const there = beside.place(bin);
+      if (here == nullptr || there == nullptr || std::abs(here->height_mm) <= params_->tolerance_mm) continue;
+      if (is_step(*params_, *here, *there)) slope_->edge[static_cast<std::size_t>(bin)] = true;
+    }
+  }
+
+  void step(int bin, const SlopeBox& box, std::optional<int> residual) {
     const std::optional<Place> place = residual ? std::optional(place_of(*model_, box, *residual)) : std::nullopt;
     if (place && place->forward_mm > params_->reach_mm) {
       stop(true);
     } else if (place && fits(*place)) {
       take(bin, *residual, *place);
     } else if (walked_ == 0 || ++left_out_ > kSlopeLeftOut) {
+      falls_ = walked_ > 0 && place && place->height_mm < before(1).height_mm;
       stop(!place && walked_ > 0 && before(1).forward_mm > params_->drop_reach_mm);
     }
   }
@@ -143,6 +161,12 @@ class Walk {
     }
     if (!leaves_plane_ || walked_ < kSlopeStartBins || !(followed || comes_from_floor()))
       slope_->first = slope_->end = 0;
+    if (!falls_) return;
+    for (int bin = slope_->first; bin < slope_->end; ++bin) {
+      const Place* const here = place(bin);
+      if (here != nullptr && before(1).forward_mm - here->forward_mm <= kSlopeEdgeMm)
+        slope_->edge[static_cast<std::size_t>(bin)] = true;
+    }
   }
 
  private:
@@ -163,6 +187,7 @@ class Walk {
       slope_->residual16[static_cast<std::size_t>(b)] =
           static_cast<std::int16_t>(b == bin ? residual : (residual + last) / 2);
     slope_->first = bin;
+    at_[static_cast<std::size_t>(bin)] = static_cast<std::int8_t>(walked_);
     ++walked_;
     left_out_ = 0;
     leaves_plane_ = leaves_plane_ || std::abs(place.height_mm) > params_->tolerance_mm;
@@ -189,39 +214,13 @@ class Walk {
   const SlopeParams* params_;
   SlopeStrip* slope_;
   std::array<Place, kSlopeBins> places_{};
+  std::array<std::int8_t, kSlopeBins> at_{};  // which of them is a bin's
   int walked_ = 0;
   int left_out_ = 0;
   bool goes_on_ = true;
+  bool falls_ = false;  // steeply, where it ends
   bool leaves_plane_ = false;
 };
-
-bool is_large_enough(ImageView<const std::int16_t> image) {
-  return image.width >= kSlopeStrips && image.height >= kSlopeBins;
-}
-
-// Of the ground at row v: a straight line between the middles of bins.
-int residual_at(const SlopeStrip& slope, int height, int v) {
-  const int at =
-      (2 * v + 1) * kSlopeBins - height;  // from the first bin's middle, in units of which a bin has 2 * height
-  const int bin = at < 0 ? -1 : at / (2 * height);
-  const int a = slope.residual16[static_cast<std::size_t>(std::clamp(bin, slope.first, slope.end - 1))];
-  const int b = slope.residual16[static_cast<std::size_t>(std::clamp(bin + 1, slope.first, slope.end - 1))];
-  const int part = at - bin * 2 * height;
-  return a + ((b - a) * part + (b >= a ? height : -height)) / (2 * height);
-}
-
-// Of a pixel above the slope's end in the image.
-bool says_nothing(const PruneModel& m, const SlopeParams& params, const SlopeStrip& slope, int u, int v,
-                  std::int16_t d16) {
-  const PixelClass pixel = classify_pixel(m, u, v, d16);
-  if (pixel != PixelClass::drop_off && !(pixel == PixelClass::obstacle && slope.goes_on)) return false;
-  const ObstaclePoint p = reproject_pixel(m, u, v, d16);
-  if (pixel == PixelClass::drop_off) return p.forward_mm > params.drop_reach_mm;
-  const std::int64_t way = p.forward_mm - slope.forward_mm;
-  const std::int64_t noise = std::int64_t{m.height_mm} * 2 * kSlopeNoise / d16;
-  const std::int64_t rise = p.height_mm - slope.height_mm - params.tolerance_mm - noise;
-  return rise * 100 <= way * params.steepest_percent;
-}
 
 }  // namespace
 
@@ -230,7 +229,7 @@ Status find_slopes(const PruneModel& model, const SlopeParams& params, ImageView
   const bool followed =
       std::count_if(slopes.begin(), slopes.end(), std::mem_fn(&SlopeStrip::found)) >= kSlopeFollowed;
   slopes = {};
-  if (!is_large_enough(disparity)) return Status::size_mismatch;
+  if (!has_slope_boxes(disparity)) return Status::size_mismatch;
   if (params.steepest_percent <= 0) return Status::ok;
   std::array<std::optional<Walk>, kSlopeStrips> walks;
   for (std::size_t i = 0; i < walks.size(); ++i)
@@ -238,7 +237,7 @@ Status find_slopes(const PruneModel& model, const SlopeParams& params, ImageView
   bool begun = false;
   bool any = true;
   for (int bin = kSlopeBins - 1; bin >= 0 && any; --bin) {
-    const Box middle = box_of(disparity, kSlopeStrips / 2, bin);
+    const SlopeBox middle = slope_box(disparity, kSlopeStrips / 2, bin);
     if (!floor_is_matched(model, middle.left, middle.bottom - 1)) {
       if (begun) break;
       continue;  // too near to be matched
@@ -246,42 +245,19 @@ Status find_slopes(const PruneModel& model, const SlopeParams& params, ImageView
     begun = true;
     BinOfStrips strips;
     for (int s = 0; s < kSlopeStrips; ++s)
-      strips[static_cast<std::size_t>(s)] = histogram_of(model, disparity, box_of(disparity, s, bin));
+      strips[static_cast<std::size_t>(s)] = histogram_of(model, disparity, slope_box(disparity, s, bin));
     any = false;
     for (int s = 0; s < kSlopeStrips; ++s) {
       Walk& walk = *walks[static_cast<std::size_t>(s)];
-      if (walk.goes_on()) walk.step(bin, box_of(disparity, s, bin), residual_of(strips, s));
+      if (walk.goes_on()) walk.step(bin, slope_box(disparity, s, bin), residual_of(strips, s));
       any = any || walk.goes_on();
     }
   }
   for (std::optional<Walk>& walk : walks)
     walk->end(followed);
-  return Status::ok;
-}
-
-Status level_strip(const PruneModel& model, const SlopeParams& params, const Slopes& slopes,
-                   ImageView<const std::int16_t> disparity, int strip, ImageView<std::int16_t> levelled) {
-  if (!is_large_enough(disparity) || !same_size(disparity, levelled)) return Status::size_mismatch;
-  if (strip < 0 || strip >= kSlopeStrips) return Status::bad_argument;
-  const SlopeStrip& slope = slopes[static_cast<std::size_t>(strip)];
-  const Box all = box_of(disparity, strip, 0);
-  const int begin = slope.found() ? box_of(disparity, strip, slope.first).top : 0;
-  const int end = slope.found() ? box_of(disparity, strip, slope.end - 1).bottom : 0;
-  for (int v = 0; v < disparity.height; ++v) {
-    const std::int16_t* const from = disparity.row(v);
-    std::int16_t* const to = levelled.row(v);
-    std::copy(from + all.left, from + all.right, to + all.left);
-    if (v >= end) continue;
-    const int residual = v < begin ? 0 : residual_at(slope, disparity.height, v);
-    for (int u = all.left; u < all.right; ++u) {
-      if (from[u] <= 0) continue;
-      if (v < begin) {
-        if (says_nothing(model, params, slope, u, v, from[u])) to[u] = 0;
-      } else {
-        const auto level = static_cast<std::int16_t>(from[u] - residual);
-        if (level > 0 && classify_pixel(model, u, v, level) == PixelClass::floor) to[u] = level;
-      }
-    }
+  for (std::size_t s = 0; s + 1 < walks.size(); ++s) {
+    walks[s]->find_sides(*walks[s + 1]);
+    walks[s + 1]->find_sides(*walks[s]);
   }
   return Status::ok;
 }

@@ -36,14 +36,16 @@ inline constexpr int kSlopeStartBins = 4;       // that a strip's ground has at 
 inline constexpr int kSlopeFollowed = 3;        // strips
 inline constexpr int kSlopeEdgeBins = 2;        // the lowest, that do not say where it comes from
 inline constexpr int kSlopeRunBins = 8;         // over which the first rise or fall is measured
+inline constexpr int kSlopeEdgeMm = 250;        // before the place where a slope falls steeply
 
 // The ground's residual in 1/16 px in the middle of each bin, counted from the image's top.
 struct SlopeStrip {
   int first = 0;  // bins [first, end) are known; none: the mount's plane is good enough
   int end = 0;
   std::array<std::int16_t, kSlopeBins> residual16{};
-  bool goes_on = false;         // beyond what was measured
-  std::int32_t forward_mm = 0;  // the last place that was
+  std::array<bool, kSlopeBins> edge{};  // a side or a far end, that is not driven over: not levelled
+  bool goes_on = false;                 // beyond what was measured
+  std::int32_t forward_mm = 0;          // the last place that was
   std::int32_t height_mm = 0;
 
   bool found() const { return first < end; }

@@ -217,6 +217,68 @@ TEST(Slope, ALongRampLeavesNothingBehindItsMeasuredPart) {
   EXPECT_LT(obstacles, 20);
 }
 
+// Pixels of a strip that show ground 0.1 m high or more and no farther than 2 m, and those of them that are floor once the image is
+// levelled.
+std::pair<int, int> raised(Disparity& image, const Slopes& slopes, int strip) {
+  const Model m(camera());
+  Disparity levelled(kWidth, kHeight);
+  EXPECT_EQ(level_strip(m.prune, {}, slopes, image.view(), strip, levelled.view()), Status::ok);
+  int all = 0;
+  int floor = 0;
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = kWidth * strip / kSlopeStrips; u < kWidth * (strip + 1) / kSlopeStrips; ++u) {
+      const std::int16_t d = image.view().at(u, v);
+      if (d <= 0) continue;
+      const ObstaclePoint p = reproject_pixel(m.prune, u, v, d);
+      if (p.height_mm < 100 || p.forward_mm > 2000) continue;
+      ++all;
+      floor += classify_pixel(m.prune, u, v, levelled.view().at(u, v)) == PixelClass::floor;
+    }
+  }
+  return {all, floor};
+}
+
+// A ramp covers the left half of the image, level floor the right one: the vehicle would drive down over its side.
+TEST(Slope, TheSideOfARampStays) {
+  const Model m(camera());
+  Disparity image = disparity_of({{0, 0}, {0.8, 0}, {2, rise(8, 1.2)}, {30, rise(8, 1.2)}});
+  Disparity floor = disparity_of({{0, 0}, {30, 0}});
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = kWidth / 2; u < kWidth; ++u)
+      image.view().at(u, v) = floor.view().at(u, v);
+  }
+  Slopes slopes{};
+  ASSERT_EQ(find_slopes(m.prune, {}, image.view(), slopes), Status::ok);
+  ASSERT_TRUE(slopes[4].found());
+  const auto [beside, beside_floor] = raised(image, slopes, 4);
+  ASSERT_GT(beside, 200);
+  EXPECT_LT(beside_floor, beside / 4);
+  const auto [inside, inside_floor] = raised(image, slopes, 2);
+  EXPECT_GT(inside_floor, inside * 9 / 10);
+}
+
+// A platform that ends 0.13 m above the floor, as seen from its ramp's foot.
+TEST(Slope, TheFarEndOfAPlatformStays) {
+  const Model m(camera());
+  Disparity image = disparity_of({{0, 0}, {0.4, 0}, {1.4, 0.13}, {1.8, 0.13}, {1.8, 0}, {30, 0}});
+  Slopes slopes{};
+  ASSERT_EQ(find_slopes(m.prune, {}, image.view(), slopes), Status::ok);
+  ASSERT_TRUE(slopes[4].found());
+  int left = 0;
+  int edge = 0;
+  for (int v = 0; v < kHeight; ++v) {
+    const std::int16_t d = image.view().at(144, v);
+    if (d <= 0) continue;
+    const ObstaclePoint p = reproject_pixel(m.prune, 144, v, d);
+    if (p.height_mm < 100 || p.forward_mm < 1650 || p.forward_mm > 1780) continue;
+    ++edge;
+    const int bin = v * kSlopeBins / kHeight;
+    left += bin < slopes[4].first || slopes[4].edge[static_cast<std::size_t>(bin)] ? 1 : 0;
+  }
+  ASSERT_GT(edge, 3);
+  EXPECT_GE(left, edge * 3 / 4);
+}
+
 TEST(Slope, AThingOnARampStays) {
   const Profile ramp{{0, 0}, {1.5, 0}, {3.5, rise(8, 2)}, {30, rise(8, 2)}};
   const Model m(camera());
