@@ -12,78 +12,9 @@
 namespace lakshya {
 namespace {
 
-constexpr int kReach16 = 4 * kDisparityScale;  // of a residual
-
-// Residuals of some pixels.
-struct Histogram {
-  std::array<int, 2 * kReach16 + 1> count{};
-  int inside = 0;
-  int pixels = 0;
-
-  void add(const Histogram& other) {
-    for (std::size_t i = 0; i < count.size(); ++i)
-      count[i] += other.count[i];
-    inside += other.inside;
-    pixels += other.pixels;
-  }
-};
-using BinOfStrips = std::array<Histogram, kSlopeStrips>;
-
-std::int64_t to_sixteenths(std::int64_t q16) {
-  return (q16 + (1 << (kDisparityToQ16 - 1))) >> kDisparityToQ16;
-}
-
 bool floor_is_matched(const PruneModel& m, int u, int v) {
   const std::int64_t floor = m.floor.at(u, v);
   return floor > m.min_disparity && floor <= m.max_floor_disparity;
-}
-
-Histogram histogram_of(const PruneModel& m, ImageView<const std::int16_t> disparity, const SlopeBox& box) {
-  Histogram h;
-  h.pixels = (box.right - box.left) * (box.bottom - box.top);
-  for (int v = box.top; v < box.bottom; ++v) {
-    for (int u = box.left; u < box.right; ++u) {
-      const std::int16_t d = disparity.at(u, v);
-      if (d <= 0) continue;
-      const std::int64_t residual = d - to_sixteenths(m.floor.at(u, v));
-      if (std::abs(residual) > kReach16) continue;
-      ++h.count[static_cast<std::size_t>(residual + kReach16)];
-      ++h.inside;
-    }
-  }
-  return h;
-}
-
-// Where most pixels lie.
-struct Level {
-  int residual16 = 0;
-  int percent = 0;  // of those with a disparity that lie there
-};
-
-std::optional<Level> level_of(const Histogram& h) {
-  if (h.inside == 0 || h.inside * 100 < h.pixels * kSlopeSeenPercent) return std::nullopt;
-  int median = 0;
-  for (int below = h.count[0]; 2 * below < h.inside; below += h.count[static_cast<std::size_t>(median)])
-    ++median;
-  int near = 0;
-  for (int k = std::max(median - kSlopeInlier, 0); k <= std::min(median + kSlopeInlier, 2 * kReach16); ++k)
-    near += h.count[static_cast<std::size_t>(k)];
-  return Level{median - kReach16, near * 100 / h.inside};
-}
-
-// Of a strip's ground in a bin; none: its pixels do not lie at one height.
-std::optional<int> residual_of(const BinOfStrips& bin, int strip) {
-  std::optional<Level> best;
-  for (const int first : {strip - 1, strip - 2, strip}) {
-    Histogram sum;
-    for (int s = std::max(first, 0); s <= std::min(first + 2, kSlopeStrips - 1); ++s)
-      sum.add(bin[static_cast<std::size_t>(s)]);
-    const std::optional<Level> level = level_of(sum);
-    if (level && (!best || level->percent > best->percent)) best = level;
-  }
-  if (!best || best->percent < kSlopeInlierPercent) best = level_of(bin[static_cast<std::size_t>(strip)]);
-  if (!best || best->percent < kSlopeInlierPercent) return std::nullopt;
-  return best->residual16;
 }
 
 struct Place {
@@ -97,7 +28,7 @@ Place place_of(const PruneModel& m, const SlopeBox& box, int residual16) {
   const int u = (box.left + box.right) / 2;
   const int v = (box.top + box.bottom) / 2;
   const auto d16 =
-      static_cast<std::int16_t>(std::max<std::int64_t>(to_sixteenths(m.floor.at(u, v)) + residual16, 1));
+      static_cast<std::int16_t>(std::max<std::int64_t>(slope_sixteenths(m.floor.at(u, v)) + residual16, 1));
   const ObstaclePoint p = reproject_pixel(m, u, v, d16);
   return {p.forward_mm, p.left_mm, p.height_mm, std::int64_t{m.height_mm} * kSlopeNoise / d16};
 }
@@ -125,6 +56,9 @@ class Walk {
   }
 
   bool goes_on() const { return goes_on_; }
+  bool begins_on_plane() const {
+    return walked_ >= kSlopeStartBins && std::abs(places_[0].height_mm) <= params_->tolerance_mm;
+  }
 
   // Of the ground in a bin; null: it was not found there.
   const Place* place(int bin) const {
@@ -138,7 +72,11 @@ class Walk {
       const Place* const here = place(bin);
       const Place* const there = beside.place(bin);
       if (here == nullptr || there == nullptr || std::abs(here->height_mm) <= params_->tolerance_mm) continue;
-      if (is_step(*params_, *here, *there)) slope_->edge[static_cast<std::size_t>(bin)] = true;
+      if (!is_step(*params_, *here, *there)) continue;
+      slope_->edge[static_cast<std::size_t>(bin)] = true;
+      const std::int64_t fall = here->height_mm - there->height_mm - std::max(here->noise_mm, there->noise_mm);
+      if (fall > kSlopeFallMm && here->forward_mm <= params_->drop_reach_mm)
+        slope_->fall[static_cast<std::size_t>(bin)] = true;
     }
   }
 
@@ -159,8 +97,8 @@ class Walk {
       slope_->forward_mm = static_cast<std::int32_t>(before(1).forward_mm);
       slope_->height_mm = static_cast<std::int32_t>(before(1).height_mm);
     }
-    if (!leaves_plane_ || walked_ < kSlopeStartBins || !(followed || comes_from_floor()))
-      slope_->first = slope_->end = 0;
+    const bool believed = walked_ >= kSlopeStartBins && (followed || comes_from_floor());
+    if (!leaves_plane_ || !believed) slope_->first = slope_->end = 0;
     if (!falls_) return;
     for (int bin = slope_->first; bin < slope_->end; ++bin) {
       const Place* const here = place(bin);
@@ -243,18 +181,17 @@ Status find_slopes(const PruneModel& model, const SlopeParams& params, ImageView
       continue;  // too near to be matched
     }
     begun = true;
-    BinOfStrips strips;
-    for (int s = 0; s < kSlopeStrips; ++s)
-      strips[static_cast<std::size_t>(s)] = histogram_of(model, disparity, slope_box(disparity, s, bin));
+    const SlopeHistograms strips = slope_histograms(model, disparity, bin);
     any = false;
     for (int s = 0; s < kSlopeStrips; ++s) {
       Walk& walk = *walks[static_cast<std::size_t>(s)];
-      if (walk.goes_on()) walk.step(bin, slope_box(disparity, s, bin), residual_of(strips, s));
+      if (walk.goes_on()) walk.step(bin, slope_box(disparity, s, bin), slope_residual(strips, s));
       any = any || walk.goes_on();
     }
   }
+  const bool on_plane = std::ranges::any_of(walks, [](const auto& walk) { return walk->begins_on_plane(); });
   for (std::optional<Walk>& walk : walks)
-    walk->end(followed);
+    walk->end(followed && !on_plane);
   for (std::size_t s = 0; s + 1 < walks.size(); ++s) {
     walks[s]->find_sides(*walks[s + 1]);
     walks[s + 1]->find_sides(*walks[s]);

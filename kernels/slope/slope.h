@@ -36,6 +36,8 @@ inline constexpr int kSlopeStartBins = 4;       // that a strip's ground has at 
 inline constexpr int kSlopeFollowed = 3;        // strips
 inline constexpr int kSlopeEdgeBins = 2;        // the lowest, that do not say where it comes from
 inline constexpr int kSlopeRunBins = 8;         // over which the first rise or fall is measured
+inline constexpr int kSlopeFallMm = 70;         // to the ground beside: no lower side is driven over
+inline constexpr int kSlopeSideMm = 400;        // what is higher stands on the ground
 inline constexpr int kSlopeEdgeMm = 250;        // before the place where a slope falls steeply
 
 // The ground's residual in 1/16 px in the middle of each bin, counted from the image's top.
@@ -44,6 +46,7 @@ struct SlopeStrip {
   int end = 0;
   std::array<std::int16_t, kSlopeBins> residual16{};
   std::array<bool, kSlopeBins> edge{};  // a side or a far end, that is not driven over: not levelled
+  std::array<bool, kSlopeBins> fall{};  // a side that is high: a drop-off
   bool goes_on = false;                 // beyond what was measured
   std::int32_t forward_mm = 0;          // the last place that was
   std::int32_t height_mm = 0;
@@ -53,14 +56,15 @@ struct SlopeStrip {
 using Slopes = std::array<SlopeStrip, kSlopeStrips>;
 
 // Of the whole image; `slopes` comes with those of the image before, or empty. Ground that begins away from the mount's plane is
-// believed where that one had kSlopeFollowed of them, else where it comes from the plane: seen back, it meets it before it is below the
-// vehicle, as the top of a kerb does not. size_mismatch: the image is narrower than kSlopeStrips or lower than kSlopeBins.
+// believed where that one had kSlopeFollowed of them and none begins on the plane in this one, else where it comes from the plane: seen
+// back, it meets it before it is below the vehicle, as the top of a kerb does not. size_mismatch: the image is narrower than kSlopeStrips or lower than kSlopeBins.
 Status find_slopes(const PruneModel& model, const SlopeParams& params, ImageView<const std::int16_t> disparity,
                    Slopes& slopes);
 
 // Copies a strip of the image, 0 <= strip < kSlopeStrips: pixels that are floor once the ground's residual is taken out of them come
 // without it. Above a slope's end in the image, what the mount's plane can say nothing about is too far (0): drop-offs beyond
-// drop_reach_mm, and, where the slope goes on, what does not rise above it at its steepest. All others come as they are.
+// drop_reach_mm, and, where the slope goes on, what does not rise above it at its steepest. In the rows of a fall, what is no higher than
+// kSlopeSideMm comes with a disparity that the plane takes for a drop-off just so. All others come as they are.
 // size_mismatch (also: `levelled`), bad_argument: strip.
 Status level_strip(const PruneModel& model, const SlopeParams& params, const Slopes& slopes,
                    ImageView<const std::int16_t> disparity, int strip, ImageView<std::int16_t> levelled);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "kernels/base/units.h"
 #include "kernels/slope/slope.h"
 #include "kernels/slope/slope_bins.h"
 
@@ -32,6 +33,12 @@ bool says_nothing(const PruneModel& m, const SlopeParams& params, const SlopeStr
   return rise * 100 <= way * params.steepest_percent;
 }
 
+// What the mount's plane takes for a drop-off just so, from 1; a pixel that shows lower ground.
+std::int16_t drop_off(const PruneModel& m, int u, int v) {
+  const std::int64_t bound = std::min(m.drop_relative.at(u, v), m.drop_absolute.at(u, v));
+  return static_cast<std::int16_t>(std::max<std::int64_t>((bound >> kDisparityToQ16) - 1, 1));
+}
+
 }  // namespace
 
 Status level_strip(const PruneModel& model, const SlopeParams& params, const Slopes& slopes,
@@ -46,7 +53,15 @@ Status level_strip(const PruneModel& model, const SlopeParams& params, const Slo
     const std::int16_t* const from = disparity.row(v);
     std::int16_t* const to = levelled.row(v);
     std::copy(from + all.left, from + all.right, to + all.left);
-    if (v >= end || slope.edge[static_cast<std::size_t>(v * kSlopeBins / disparity.height)]) continue;
+    const auto bin = static_cast<std::size_t>(v * kSlopeBins / disparity.height);
+    if (slope.fall[bin]) {
+      for (int u = all.left; u < all.right; ++u) {
+        if (from[u] > 0 && reproject_pixel(model, u, v, from[u]).height_mm < kSlopeSideMm)
+          to[u] = drop_off(model, u, v);
+      }
+      continue;
+    }
+    if (v >= end || slope.edge[bin]) continue;
     const int residual = v < begin ? 0 : residual_at(slope, disparity.height, v);
     for (int u = all.left; u < all.right; ++u) {
       if (from[u] <= 0) continue;

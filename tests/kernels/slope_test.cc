@@ -255,6 +255,33 @@ TEST(Slope, TheSideOfARampStays) {
   EXPECT_LT(beside_floor, beside / 4);
   const auto [inside, inside_floor] = raised(image, slopes, 2);
   EXPECT_GT(inside_floor, inside * 9 / 10);
+  // It is low and would be taken for something to drive over, were it not a drop-off.
+  Disparity levelled(kWidth, kHeight);
+  ASSERT_EQ(level_strip(m.prune, {}, slopes, image.view(), 4, levelled.view()), Status::ok);
+  int drop = 0;
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = kWidth * 4 / 10; u < kWidth / 2; ++u) {
+      const std::int16_t d = levelled.view().at(u, v);
+      drop += d > 0 && classify_pixel(m.prune, u, v, d) == PixelClass::drop_off;
+    }
+  }
+  EXPECT_GT(drop, beside / 2);
+}
+
+// From a platform the image shows lower ground beside it; only where there is nothing else it may be the end of the ramp.
+TEST(Slope, LowerGroundBesideAPlatformIsNotFollowed) {
+  const Model m(camera());
+  Disparity image = disparity_of({{0, 0}, {30, 0}});
+  Disparity lower = disparity_of({{0, -0.12}, {30, -0.12}});
+  Slopes slopes = slopes_of({{0, 0}, {1.2, 0}, {2, -0.12}, {30, -0.12}});
+  ASSERT_EQ(find_slopes(m.prune, {}, lower.view(), slopes), Status::ok);
+  EXPECT_TRUE(slopes[7].found());
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth / 2; ++u)
+      lower.view().at(u, v) = image.view().at(u, v);
+  }
+  ASSERT_EQ(find_slopes(m.prune, {}, lower.view(), slopes), Status::ok);
+  EXPECT_FALSE(slopes[7].found());
 }
 
 // A platform that ends 0.13 m above the floor, as seen from its ramp's foot.
