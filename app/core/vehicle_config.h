@@ -55,7 +55,7 @@ struct PruneConfig {
   double sigma_factor = 3.0;         // k
   double ground_range_deg = 1.5;
   double ground_rate_deg = 0.3;
-  double slope_deg = 10.0;
+  double slope_deg = 0;
 };
 
 struct GridConfig {

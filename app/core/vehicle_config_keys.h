@@ -184,7 +184,9 @@ void visit_prune_keys(Prune& c, Visitor& v) {
   v(Key{"prune.ground_rate_deg", "deg", "By how much that correction may change from one frame to the next"},
     c.ground_rate_deg, Range{0, 5});
   v(Key{"prune.slope_deg", "deg",
-        "The steepest ramp, up or down, that is driven: ground that rises or falls less is floor; 0: none is"},
+        "The steepest ramp, up or down, that is driven (10 is good): ground that rises or falls less is floor; 0: "
+        "ramps are gone "
+        "round, since the sides of one may be driven over (docs/driving.md)"},
     c.slope_deg, Range{0, 20});
 }
 

@@ -74,9 +74,8 @@ class Walk {
       if (here == nullptr || there == nullptr || std::abs(here->height_mm) <= params_->tolerance_mm) continue;
       if (!is_step(*params_, *here, *there)) continue;
       slope_->edge[static_cast<std::size_t>(bin)] = true;
-      const std::int64_t fall = here->height_mm - there->height_mm - std::max(here->noise_mm, there->noise_mm);
-      if (fall > kSlopeFallMm && here->forward_mm <= params_->drop_reach_mm)
-        slope_->fall[static_cast<std::size_t>(bin)] = true;
+      slope_->fall[static_cast<std::size_t>(bin)] =
+          slope_->fall[static_cast<std::size_t>(bin)] || is_fall(*here, *there);
     }
   }
 
@@ -87,7 +86,8 @@ class Walk {
     } else if (place && fits(*place)) {
       take(bin, *residual, *place);
     } else if (walked_ == 0 || ++left_out_ > kSlopeLeftOut) {
-      falls_ = walked_ > 0 && place && place->height_mm < before(1).height_mm;
+      ends_low_ = walked_ > 0 && place && place->height_mm < before(1).height_mm;
+      falls_ = ends_low_ && is_fall(before(1), *place);
       stop(!place && walked_ > 0 && before(1).forward_mm > params_->drop_reach_mm);
     }
   }
@@ -99,16 +99,22 @@ class Walk {
     }
     const bool believed = walked_ >= kSlopeStartBins && (followed || comes_from_floor());
     if (!leaves_plane_ || !believed) slope_->first = slope_->end = 0;
-    if (!falls_) return;
+    if (!ends_low_) return;
     for (int bin = slope_->first; bin < slope_->end; ++bin) {
       const Place* const here = place(bin);
-      if (here != nullptr && before(1).forward_mm - here->forward_mm <= kSlopeEdgeMm)
-        slope_->edge[static_cast<std::size_t>(bin)] = true;
+      if (here == nullptr || before(1).forward_mm - here->forward_mm > kSlopeEdgeMm) continue;
+      slope_->edge[static_cast<std::size_t>(bin)] = true;
+      slope_->fall[static_cast<std::size_t>(bin)] = falls_;
     }
   }
 
  private:
   const Place& before(int n) const { return places_[static_cast<std::size_t>(walked_ - n)]; }
+
+  bool is_fall(const Place& here, const Place& there) const {
+    const std::int64_t fall = here.height_mm - there.height_mm - std::max(here.noise_mm, there.noise_mm);
+    return fall > kSlopeFallMm && here.forward_mm <= params_->drop_reach_mm;
+  }
 
   bool fits(const Place& place) const {
     for (const int n : {1, 2, 4}) {
@@ -156,7 +162,8 @@ class Walk {
   int walked_ = 0;
   int left_out_ = 0;
   bool goes_on_ = true;
-  bool falls_ = false;  // steeply, where it ends
+  bool ends_low_ = false;  // lower ground follows, too steeply
+  bool falls_ = false;     // ... and as high as a side is that is not driven over
   bool leaves_plane_ = false;
 };
 
