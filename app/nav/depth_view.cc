@@ -14,6 +14,9 @@ constexpr double kBelow = 0.12;
 constexpr double kFloor = 0.10;  // what is lower may be floor
 constexpr int kThingShare = 10;  // percent of the pixels looked at
 constexpr int kBehindShare = 25;
+constexpr double kHigh =
+    0.75;  // m: what is higher on the average hangs; a walking person, whose trail must go, is lower
+constexpr int kBehindShareHigh = 50;  // of a bar before a wall that shows little most pixels have no disparity
 
 }  // namespace
 
@@ -68,7 +71,8 @@ Shown DepthView::at(ImageView<const std::int16_t> disparity, double forward_m, d
     }
   }
   if (100 * things >= kThingShare * looked_at) return Shown::thing;
-  return 100 * behind >= kBehindShare * looked_at ? Shown::behind : Shown::nothing;
+  const int share = height_m >= kHigh ? kBehindShareHigh : kBehindShare;
+  return 100 * behind >= share * looked_at ? Shown::behind : Shown::nothing;
 }
 
 }  // namespace lakshya

@@ -57,6 +57,18 @@ TEST_F(DepthViewTest, AThinBoardBeforeAWallIsStillThere) {
   EXPECT_EQ(look(2, 0, 0.8), Shown::behind);
 }
 
+// A bar's end costs its neighbours their disparities, too: a third of the pixels is not enough to say that it is gone.
+TEST_F(DepthViewTest, WhatHangsIsGoneOnlyWhereHalfOfTheViewIsBehindIt) {
+  fill(-2);
+  rows(137, 143, disparity_of(4));  // of the rows 137 to 153
+  EXPECT_EQ(look(2, 0, 0.8), Shown::nothing);
+  rows(137, 147, disparity_of(4));
+  EXPECT_EQ(look(2, 0, 0.8), Shown::behind);
+  fill(-2);
+  rows(152, 158, disparity_of(4));  // 0.65 m high, of the rows 152 to 168
+  EXPECT_EQ(look(2, 0, 0.65), Shown::behind);
+}
+
 TEST_F(DepthViewTest, OutsideOfTheImage) {
   fill(disparity_of(4));
   EXPECT_EQ(look(-1, 0, 0.8), Shown::outside);
