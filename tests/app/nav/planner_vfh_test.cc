@@ -111,7 +111,9 @@ void put_boxes(std::mt19937& random, Trial& trial) {
   for (int box = 0; box < 5; ++box) {
     const int row = 8 + draw(45);
     const int col = draw(58);
-    trial.block(row, row + 1 + draw(2), col, std::min(60, col + 1 + draw(12)), kCellObstacle);
+    const int cols = 1 + draw(12);
+    const int rows = 1 + draw(2);
+    trial.block(row, row + rows, col, std::min(60, col + cols), kCellObstacle);
   }
   for (int r = 0; r < 22; ++r) {
     trial.block(r, r + 1, 0, 23 - r, kCellUnknown);
