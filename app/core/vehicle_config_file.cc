@@ -4,6 +4,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
@@ -20,10 +21,12 @@ namespace lakshya {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
+constexpr int kMaxIncluded = 4;
 
 using Settings = std::vector<Setting>;
 
 struct ConfigFile {
+  std::optional<Setting> include;  // its `text` is the path
   std::optional<Setting> profile;  // its `text` is the name
   Settings groups;
   std::map<std::string, Settings, std::less<>> profiles;
@@ -66,8 +69,8 @@ bool is_group(std::string_view name) {
 }
 
 [[noreturn]] void refuse_group(const Entry& entry) {
-  std::vector<std::string_view> known{"profile", "profiles"};
-  std::string list = "profile, profiles";
+  std::vector<std::string_view> known{"include", "profile", "profiles"};
+  std::string list = "include, profile, profiles";
   for (const Group& group : kGroups) {
     known.push_back(group.name);
     list.append(", ").append(group.name);
@@ -109,7 +112,9 @@ void check_profile_name(const std::string& name, const std::string& where) {
 ConfigFile config_file(const std::string& path, const YAML::Node& root) {
   ConfigFile file;
   for (const Entry& entry : entries(path, {"the file", root, path})) {
-    if (entry.name == "profile") {
+    if (entry.name == "include") {
+      file.include = scalar(entry, "include");
+    } else if (entry.name == "profile") {
       file.profile = scalar(entry, "profile");
     } else if (entry.name == "profiles") {
       for (const Entry& profile : entries(path, entry)) {
@@ -162,6 +167,29 @@ ConfigFile parse_config_file(const std::string& text, const std::string& path) {
     throw InputError(location(path, e.mark),
                      "broken YAML: " + e.msg + " (compare with the output of `lakshya config`)");
   }
+}
+
+// The file with what it includes, which counts before its own.
+ConfigFile with_included(ConfigFile own, const std::string& path, int depth) {
+  if (!own.include) return own;
+  const Setting& include = *own.include;
+  if (include.text.empty()) throw InputError(include.where, "include: no file (name one, relative to this file)");
+  if (depth == kMaxIncluded)
+    throw InputError(include.where, "include: " + std::to_string(kMaxIncluded) +
+                                        " files include one another already (is one of them this file?)");
+  const std::string other = (std::filesystem::path(path).parent_path() / include.text).string();
+  std::string text;
+  try {
+    text = read_text(other, kMaxBytes);
+  } catch (const InputError& e) {
+    throw InputError(include.where, std::string("include: ") + e.what());
+  }
+  ConfigFile file = with_included(parse_config_file(text, other), other, depth + 1);
+  if (own.profile) file.profile = own.profile;
+  file.groups.insert(file.groups.end(), own.groups.begin(), own.groups.end());
+  for (const auto& [name, settings] : own.profiles)
+    file.profiles[name].insert(file.profiles[name].end(), settings.begin(), settings.end());
+  return file;
 }
 
 std::vector<std::string_view> profile_names(const ConfigFile& file) {
@@ -259,12 +287,15 @@ VehicleConfig merged(const ConfigFile& file, const std::string& path, const std:
 VehicleConfig load_vehicle_config(const std::string& path, const std::string& profile,
                                   const std::vector<std::string>& sets) {
   if (path.empty()) return merged({}, path, profile, sets);
-  return parse_vehicle_config(read_text(path, kMaxBytes), path, profile, sets);
+  return merged(with_included(parse_config_file(read_text(path, kMaxBytes), path), path, 0), path, profile, sets);
 }
 
 VehicleConfig parse_vehicle_config(const std::string& text, const std::string& source, const std::string& profile,
                                    const std::vector<std::string>& sets) {
-  return merged(parse_config_file(text, source), source, profile, sets);
+  const ConfigFile file = parse_config_file(text, source);
+  if (file.include)
+    throw InputError(file.include->where, "include: only a file may include another (leave it out)");
+  return merged(file, source, profile, sets);
 }
 
 }  // namespace lakshya

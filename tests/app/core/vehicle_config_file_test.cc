@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <random>
 #include <string>
 #include <utility>
@@ -61,6 +63,39 @@ TEST_F(VehicleConfigFile, FilesMaySelectAndDefineProfiles) {
   EXPECT_EQ(load("profile: indoor\n").prune.max_depth_m, 8.0);
 }
 
+TEST_F(VehicleConfigFile, AFileMayIncludeAnother) {
+  std::filesystem::create_directories(folder() + "/base");
+  std::ofstream(folder() + "/base/rig.yaml") << "profile: hall\n"
+                                                "camera: {height_m: 0.5, pitch_deg: 7}\n"
+                                                "profiles:\n"
+                                                "  hall:\n"
+                                                "    prune: {max_depth_m: 12, clearance_m: 1.0}\n";
+  const std::string text =
+      "include: base/rig.yaml\ncamera: {height_m: 0.8}\nprofiles: {hall: {prune: {max_depth_m: 9}}, yard: {}}\n";
+  const VehicleConfig config = load(text);
+  EXPECT_EQ(config.profile, "hall");
+  EXPECT_EQ(config.camera.height_m, 0.8);  // its own over the included file's
+  EXPECT_EQ(config.camera.pitch_deg, 7.0);
+  EXPECT_EQ(config.prune.max_depth_m, 9.0);
+  EXPECT_EQ(config.prune.clearance_m, 1.0);
+  EXPECT_EQ(load("profile: yard\n" + text).prune.max_depth_m, 20.0);
+  EXPECT_EQ(load(text, "", {"camera.pitch_deg=3"}).camera.pitch_deg, 3.0);
+}
+
+TEST_F(VehicleConfigFile, RefusesWhatCannotBeIncluded) {
+  std::ofstream(folder() + "/bad.yaml") << "camera:\n  height_m: much\n";
+  const std::vector<std::pair<std::string, std::vector<std::string>>> cases{
+      {"camera: {height_m: 1}\ninclude: nowhere.yaml\n", {"vehicle.yaml:2: include: ", "nowhere.yaml"}},
+      {"include: vehicle.yaml\n", {"vehicle.yaml:1: include: 4 files include one another already"}},
+      {"include: bad.yaml\n", {"bad.yaml:2: camera.height_m: \"much\" is not a number"}},
+      {"include: {a: b}\n", {"vehicle.yaml:1: include: not a single value"}},
+      {"include: ''\n", {"vehicle.yaml:1: include: no file"}}};
+  for (const auto& [text, parts] : cases)
+    expect_parts(refusal([&] { load(text); }), parts);
+  expect_parts(refusal([&] { parse_vehicle_config("include: x.yaml\n", "text", "", {}); }),
+               {"text:1: include: only a file may include another"});
+}
+
 TEST_F(VehicleConfigFile, AcceptsTheFormsThatYamlAllows) {
   EXPECT_EQ(load("camera:\r\n  height_m: +0.5\r\n").camera.height_m, 0.5);
   EXPECT_EQ(load("camera: {height_m: 5e-1}\n...\n").camera.height_m, 0.5);
@@ -117,7 +152,7 @@ TEST_F(VehicleConfigFile, RefusesBrokenFilesWithLineKeyAndReason) {
       {"camera:\n  hieght_m: 0.4\n", {"vehicle.yaml:2: ", "unknown key (did you mean camera.height_m?)"}},
       {"camra: {height_m: 0.4}\n", {"vehicle.yaml:1: ", "unknown group (did you mean camera?)"}},
       {"height_m: 0.4\n", {"did you mean camera.height_m?"}},
-      {"wobble: {}\n", {"unknown group (known: profile, profiles, camera, matcher"}},
+      {"wobble: {}\n", {"unknown group (known: include, profile, profiles, camera, matcher"}},
       {"camera:\n  height_m: tall\n", {"vehicle.yaml:2: camera.height_m: \"tall\" is not a number"}},
       {"camera: {height_m: \"0.5\"}\n", {"is not a number"}},
       {"matcher: {paths: \"5\"}\n", {"is not a whole number"}},
