@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Reads boards/NAME/board.yaml: what a board is, for whatever builds for it.
 
-    board.py check [NAME...]   every board, or these: one line each, or what is wrong with file, line, key and reason
+    board.py check [NAME...]   every board, or these: one line each, or what is wrong with file, line, key and reason; a name with a
+                               slash is a file
     board.py get NAME KEY      one value (cpu.flags), a list as one line per item; nothing where a key that may be left out is
     board.py list              the names
 
@@ -167,7 +168,8 @@ def of(name):
 def main(arguments):
     if arguments[:1] == ["check"]:
         for name in arguments[1:] or names():
-            print(f"{name}: {of(name)['title']}")
+            settings = load(pathlib.Path(name).resolve()) if "/" in name else of(name)
+            print(f"{name}: {settings['title']}")
     elif arguments == ["list"]:
         print("\n".join(names()))
     elif len(arguments) == 3 and arguments[0] == "get" and (arguments[2] in KEYS or arguments[2] == "triplet"):

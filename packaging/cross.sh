@@ -61,9 +61,11 @@ run_cross() {
     case $arch in arm64) qemu=qemu-aarch64-static ;; *) qemu=qemu-arm-static ;; esac
     emulator="$qemu;-L;$root/build/sysroot/$arch;-cpu;$emulated"
   fi
+  tools=ON
+  [ "$arch" != armhf ] || tools=OFF
   cmake -S . -B "build/cross/$name" -G Ninja --toolchain "$root/toolchains/$triplet.cmake" \
     -DLAKSHYA_SYSROOT="$root/build/sysroot/$arch" -DCMAKE_CXX_FLAGS="$(board get "$name" cpu.flags)" \
-    -DCMAKE_CROSSCOMPILING_EMULATOR="$emulator" -DLAKSHYA_EXPECT_ISA="$(board get "$name" cpu.isa)" -Wno-dev >/dev/null
+    -DCMAKE_CROSSCOMPILING_EMULATOR="$emulator" -DLAKSHYA_EXPECT_ISA="$(board get "$name" cpu.isa)" -DLAKSHYA_TOOLS=$tools -Wno-dev >/dev/null
   cmake --build "build/cross/$name"
   run_ctest "cross/$name" --timeout 1500
 }
