@@ -85,6 +85,8 @@ def build_root(root, settings, packages, kernel, version, options):
     (etc / "board").write_text(options.board + "\n")
     (etc / "version").write_text(version + "\n")
     (etc / "loader").write_text(settings["boot.loader"] + "\n")
+    if options.overlay:
+        shutil.copytree(options.overlay, root, symlinks=True, dirs_exist_ok=True)
     boards = root / "usr/share/lakshya/boards"
     for name in {"host", options.board}:
         (boards / name).mkdir(parents=True)
@@ -127,11 +129,12 @@ def sizes(files, root):
 
 def build(options, work, out):
     settings = board.of(options.board)
-    if settings["deliver"] != "image":
-        raise ImageError(f"{options.board}: is delivered as a package on the vendor's system: ./dev deb {settings['architecture']}")
     if options.update_key:
         bundle.public_key(options.update_key)
     version, when = version_and_time()
+    version = options.version or version
+    if not re.fullmatch(r"[0-9]+(\.[0-9]+)*", version):
+        raise ImageError(f"--version: {version} is not numbers with dots between")
     name = f"lakshya-{version}-{options.board}"
     say(f"{name}: Debian's packages for {settings['architecture']}")
     packages = Packages(settings["architecture"], ROOT / "build/packages" / settings["architecture"])
@@ -176,7 +179,7 @@ def build(options, work, out):
     out.parent.mkdir(parents=True, exist_ok=True)
     shutil.move(made, out)
     print(report, end="")
-    say(f"{out.relative_to(ROOT)}/{name}.img.zst")
+    say(f"{os.path.relpath(out)}/{name}.img.zst")
 
 
 def main():
@@ -184,14 +187,18 @@ def main():
     parser.add_argument("board", help="a folder of boards/")
     parser.add_argument("--rt", action="store_true", help="the kernel with PREEMPT_RT")
     parser.add_argument("--update-key", metavar="FILE", help="secret key that signs the update; KEY.pub beside it goes into the image")
+    parser.add_argument("--overlay", metavar="DIR", help="files of your own for the slot; usr/lib/lakshya/start.d/* are started")
+    parser.add_argument("--version", help="instead of the sources' own")
+    parser.add_argument("--out", metavar="DIR", help="instead of out/BOARD")
     parser.add_argument("--firmware-program", required=True, help=argparse.SUPPRESS)
     parser.add_argument("--sysroot", required=True, help=argparse.SUPPRESS)
     options = parser.parse_args()
+    out = pathlib.Path(options.out).resolve() if options.out else ROOT / "out" / options.board
     work = ROOT / "build/image" / options.board
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
     try:
-        build(options, work, ROOT / "out" / options.board)
+        build(options, work, out)
     except (ImageError, board.BoardError, elf_closure.ClosureError) as error:
         print(f"image: {error}", file=sys.stderr)
         return 1

@@ -67,3 +67,12 @@ def assemble(file, *, board, table, boot, data, raw, work):
     run(["genimage", "--config", work / "genimage.cfg", "--rootpath", work / "genimage-root", "--tmppath", work / "genimage-tmp",
          "--inputpath", work / "genimage-in", "--outputpath", work / "genimage-out"])
     shutil.move(work / "genimage-out" / file.name, file)
+
+
+def data_offset(file):
+    """Where the data partition of an assembled image or disk begins, in bytes: the second one in its table."""
+    with open(file, "rb") as source:
+        head = source.read(34 * 512)
+    if head[512:520] == b"EFI PART":
+        return int.from_bytes(head[1024 + 128 + 32:1024 + 128 + 40], "little") * 512
+    return int.from_bytes(head[446 + 16 + 8:446 + 16 + 12], "little") * 512

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/support/child_process.h"
+#include "tests/support/emulated.h"
 #include "tests/support/recorded_run.h"
 
 namespace lakshya {
@@ -186,6 +187,7 @@ TEST_F(ReplayCommand, WhatCannotBeginIsRefusedAndLeavesNothing) {
 }
 
 TEST_F(ReplayCommand, InRealTimeItKeepsTheRecordingsPace) {
+  if (is_emulated()) GTEST_SKIP() << "an emulated processor keeps no pace";
   const RecordedRun run(20, 160, 120);
   const Outcome o = replay(run.path(), {"--rate", "20"});
   ASSERT_EQ(o.exit_code, 0) << o.err;
