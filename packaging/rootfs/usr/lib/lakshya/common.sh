@@ -65,3 +65,12 @@ keep_good_config() {
   cp /tmp/good.tar $good.new && sync && mv $good.new $good
   rm /tmp/good.tar
 }
+
+# The machine starts again; the drives are stopped first.
+restart() {
+  killall -TERM lakshyad
+  sleep 1
+  lakshyad stop-motors --config "$(config)"
+  sync
+  reboot -f
+}
