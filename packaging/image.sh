@@ -1,19 +1,32 @@
 # shellcheck shell=sh
-# shellcheck disable=SC2154  # root is ./dev's
+# shellcheck disable=SC2154,SC2086  # root and command are ./dev's; lists of arguments are split on purpose
 # `./dev image`, `./dev flash` and `./dev update-key`: read by ./dev after packaging/cross.sh.
 
+# The firmware of a board that an image can be made for, and its arguments for packaging/image/build.py in $build_arguments.
+firmware_for_image() {
+  board check "$1" >/dev/null || exit
+  arch=$(board get "$1" architecture)
+  [ "$(board get "$1" deliver)" = image ] || die "$command: $1 is delivered as a package on the vendor's system, not as an image"
+  require build image "image-$arch"
+  configure_board "$1"
+  cmake --build "build/cross/$1" --target lakshyad
+  build_arguments="--firmware-program $root/build/cross/$1/app/lakshyad/lakshyad --sysroot $root/build/sysroot/$arch"
+}
+
 run_image() {
-  name=${1:-}
-  [ -n "$name" ] || wrong_use "image: which board? $(board list | tr '\n' ' ')"
   require boards
-  board check "$name" >/dev/null || exit
-  [ "$(board get "$name" deliver)" = image ] ||
-    die "image: $name is delivered as a package on the vendor's system: ./dev deb $(board get "$name" architecture)"
-  require build image "image-$(board get "$name" architecture)"
-  configure_board "$name"
-  cmake --build "build/cross/$name" --target lakshyad
-  "$root/packaging/image/build.py" "$@" --firmware-program "$root/build/cross/$name/app/lakshyad/lakshyad" \
-    --sysroot "$root/build/sysroot/$(board get "$name" architecture)"
+  [ -n "${1:-}" ] || wrong_use "image: which board? $(board list | tr '\n' ' ')"
+  firmware_for_image "$1"
+  "$root/packaging/image/build.py" "$@" $build_arguments
+}
+
+# The image in a virtual machine, treated badly: docs/image.md.
+run_hil() {
+  require boards
+  [ -n "${1:-}" ] || set -- qemu-arm64
+  firmware_for_image "$1"
+  require "hil-$arch"
+  "$root/tests/hil/hil.py" "$@" -- $build_arguments
 }
 
 run_flash() {
