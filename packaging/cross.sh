@@ -55,7 +55,7 @@ configure_board() {
   emulator=
   emulated=$(board get "$1" cpu.emulate)
   if [ -n "$emulated" ]; then
-    case $arch in arm64) qemu=qemu-aarch64-static ;; *) qemu=qemu-arm-static ;; esac
+    case $arch in arm64) qemu="qemu-aarch64-static" ;; *) qemu="qemu-arm-static" ;; esac
     emulator="$qemu;-L;$root/build/sysroot/$arch;-cpu;$emulated" # a list of CMake's
   fi
   tools=ON
