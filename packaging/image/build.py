@@ -153,11 +153,9 @@ def build(options, work, out):
               kernel=kernel.image, initramfs=memory, command_line=command_line(settings, "a"),
               os_release=f"ID=lakshya\nNAME=Lakshya\nVERSION_ID={version}\nPRETTY_NAME=\"Lakshya {version}\"\n", work=work)
     boot_for_systemd_boot(work / "boot", settings, packages, slot, version)
-    (work / "data/config").mkdir(parents=True)
-    (work / "data/recordings").mkdir()
     say("partitions")
     disk.fat(work / "boot.vfat", work / "boot", mib=settings["image.boot_mib"], label="LAKSHYA", board=options.board, when=when)
-    disk.ext4(work / "data.ext4", work / "data", mib=settings["image.data_mib"], label="LAKSHYA-DATA", board=options.board, when=when)
+    disk.ext4(work / "data.ext4", mib=settings["image.data_mib"], label="LAKSHYA-DATA", board=options.board, when=when)
     image = work / f"{name}.img"
     disk.assemble(image, board=options.board, table=settings["image.table"], boot=work / "boot.vfat", data=work / "data.ext4",
                   raw=[], work=work)

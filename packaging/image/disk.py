@@ -31,15 +31,12 @@ def fat(file, folder, *, mib, label, board, when):
         run(["mcopy", "-s", "-m", "-i", file, path, "::/"], env=environment)
 
 
-def ext4(file, folder, *, mib, label, board, when):
+def ext4(file, *, mib, label, board, when):
+    """An empty ext4 file system: files that mkfs.ext4 copies in would carry the time of the build."""
     environment = dict(os.environ, E2FSPROGS_FAKE_TIME=str(when), SOURCE_DATE_EPOCH=str(when), TZ="UTC", LC_ALL="C")
     pathlib.Path(file).unlink(missing_ok=True)
-    for path in sorted(folder.rglob("*")):
-        os.utime(path, (when, when))
-    os.utime(folder, (when, when))
     run(["mkfs.ext4", "-q", "-L", label, "-U", _id(board, label), "-E",
-         f"hash_seed={_id(board, 'hash')},root_owner=0:0,lazy_itable_init=0,lazy_journal_init=0", "-d", folder, file, f"{mib}M"],
-        env=environment)
+         f"hash_seed={_id(board, 'hash')},root_owner=0:0,lazy_itable_init=0,lazy_journal_init=0", file, f"{mib}M"], env=environment)
 
 
 def assemble(file, *, board, table, boot, data, raw, work):

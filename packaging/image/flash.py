@@ -114,7 +114,7 @@ def verify(path, ranges):
 def inject(path, files):
     """Into the data partition, which begins where the boot partition ends."""
     offset = disk.data_offset(path)
-    script = "cd config\n" + "".join(f"rm {file.name}\nwrite {file} {file.name}\n" for file in files)
+    script = "mkdir config\ncd config\n" + "".join(f"rm {file.name}\nwrite {file} {file.name}\n" for file in files)
     done = subprocess.run(["debugfs", "-w", "-f", "-", f"{path}?offset={offset}"], input=script, capture_output=True, text=True,
                           check=False)
     listed = run(["debugfs", "-R", "ls -p /config", f"{path}?offset={offset}"])

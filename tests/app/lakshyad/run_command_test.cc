@@ -17,6 +17,7 @@
 #include "tests/emulators/os5000_device.h"
 #include "tests/emulators/quicksilver_drive.h"
 #include "tests/support/child_process.h"
+#include "tests/support/emulated.h"
 #include "tests/support/recorded_run.h"
 
 namespace lakshya {
@@ -284,6 +285,7 @@ class NotifySocket {
 };
 
 TEST_F(RunCommand, SystemdIsToldAsLongAsTheLoopTurns) {
+  if (is_emulated()) GTEST_SKIP() << "an emulated processor is too late for the limits of time";
   const std::string path = folder_.path("notify");
   const NotifySocket systemd(path);
   Words words{"/usr/bin/env", "NOTIFY_SOCKET=" + path, "WATCHDOG_USEC=1000000"};
@@ -336,6 +338,7 @@ class CompassOnTheVehicle {
 
 // A thing stands half left: the wheels' counts show that the vehicle turns to the right of it.
 TEST_F(RunCommand, ItDrivesAndAvoids) {
+  if (is_emulated()) GTEST_SKIP() << "an emulated processor is too late for the limits of time";
   const CompassOnTheVehicle follows(drives_, drive_terminal_, compass_, compass_terminal_);
   ChildProcess firmware(run_words({"--frames", "60", "--out", folder_.path("out"), "--json"}));
   EXPECT_EQ(firmware.wait(20'000), 0) << firmware.err();
