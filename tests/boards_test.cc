@@ -71,7 +71,7 @@ TEST_F(BoardsTest, RefusesWithLineKeyAndReason) {
   EXPECT_EQ(refused("rpi4", "architecture: arm64", "architecture: riscv64"),
             "board.yaml:4: architecture: 'riscv64' is unknown (known: amd64, arm64, armhf)\n");
   EXPECT_EQ(refused("rpi4", "seconds: 10", "seconds: 600"),
-            "board.yaml:26: watchdog.seconds: 600 is not a whole number from 1 to 60\n");
+            "board.yaml:25: watchdog.seconds: 600 is not a whole number from 1 to 60\n");
   EXPECT_EQ(refused("rpi4", "pwm_bcm2835", "pwm-bcm2835"),
             "board.yaml:13: kernel.modules: 'pwm-bcm2835' is not a kernel module's name (with _, not -)\n");
   EXPECT_EQ(refused("rpi4", "  loader:", "  lader:").substr(0, 40), "board.yaml:15: boot.lader: unknown key (");
