@@ -20,24 +20,35 @@ Thing draw_piece(int which, const Eigen::Vector2d& at, Random& random) {
   squared.yaw = straight;
   switch (which) {
     case 0:
-    case 1:
-      return box(spot, random.uniform(0.3, 0.6), random.uniform(0.25, 0.5), random.uniform(0.3, 1.0));
-    case 2:
-      return box(spot, random.uniform(0.25, 0.45), random.uniform(0.2, 0.35), random.uniform(0.12, 0.3));
+    case 1: {
+      const auto d = random.from_last({{0.3, 0.6}, {0.25, 0.5}, {0.3, 1.0}});
+      return box(spot, d[0], d[1], d[2]);
+    }
+    case 2: {
+      const auto d = random.from_last({{0.25, 0.45}, {0.2, 0.35}, {0.12, 0.3}});
+      return box(spot, d[0], d[1], d[2]);
+    }
     case 3:
     case 4:
       return chair(spot, random.uniform(0.43, 0.48));
-    case 5:
-      return table(squared, random.uniform(1.0, 1.5), random.uniform(0.65, 0.8), 0.72);
-    case 6:
-      return shelf(squared, random.uniform(0.7, 1.2), random.uniform(1.2, 1.9), random.uniform(0.5, 0.9),
-                   random.uniform(0.2, 0.35));
-    case 7:
-      return pole(spot, random.uniform(0.03, 0.06), random.uniform(1.3, 2.4));
+    case 5: {
+      const auto d = random.from_last({{1.0, 1.5}, {0.65, 0.8}});
+      return table(squared, d[0], d[1], 0.72);
+    }
+    case 6: {
+      const auto d = random.from_last({{0.7, 1.2}, {1.2, 1.9}, {0.5, 0.9}, {0.2, 0.35}});
+      return shelf(squared, d[0], d[1], d[2], d[3]);
+    }
+    case 7: {
+      const auto d = random.from_last({{0.03, 0.06}, {1.3, 2.4}});
+      return pole(spot, d[0], d[1]);
+    }
     case 8:
       return floor_lamp(spot, random.uniform(1.4, 1.7));
-    case 9:
-      return hanging_bar(low, random.uniform(0.8, 1.4), random.uniform(0.05, 0.09));
+    case 9: {
+      const auto d = random.from_last({{0.8, 1.4}, {0.05, 0.09}});
+      return hanging_bar(low, d[0], d[1]);
+    }
     default:
       return hanging_lamp(low, random.uniform(0.35, 0.55));
   }
@@ -56,8 +67,8 @@ Thing shelf_at_wall(Course& course) {
   spot.x = side == 2 ? r.x1 - kBack : random.uniform(r.x0, r.x1);
   spot.y = side == 0 ? r.y0 + kBack : side == 1 ? r.y1 - kBack : random.uniform(r.y0, r.y1);
   spot.yaw = side == 0 ? kPi / 2 : side == 1 ? -kPi / 2 : kPi;
-  return shelf(spot, random.uniform(0.8, 1.6), random.uniform(1.2, 1.9), random.uniform(0.5, 0.9),
-               random.uniform(0.2, 0.35));
+  const auto d = random.from_last({{0.8, 1.6}, {1.2, 1.9}, {0.5, 0.9}, {0.2, 0.35}});
+  return shelf(spot, d[0], d[1], d[2], d[3]);
 }
 
 // A chair pushed half under the table that was placed last.
@@ -91,16 +102,18 @@ void furnish_rooms(Course& course) {
   if (has_trait(course.world(), "glass")) {
     for (int tries = 0; tries < 60; ++tries) {
       const Eigen::Vector2d at = course.on_the_way(1.0);
-      if (course.place(glass_pane({at.x(), at.y(), random.uniform(0, kPi), 0, 1}, random.uniform(1.0, 1.6), 2.1),
-                       false))
-        break;
+      const auto [yaw, length] = random.from_last({{0, kPi}, {1.0, 1.6}});
+      if (course.place(glass_pane({at.x(), at.y(), yaw, 0, 1}, length, 2.1), false)) break;
     }
   }
   const double enough = random.uniform(0.175, 0.24);
   for (int tries = 0; tries < 700 && course.density() < enough; ++tries) {
     const bool shelf_now = random.chance(0.12);
-    Thing thing =
-        shelf_now ? shelf_at_wall(course) : draw_piece(random.integer(0, kPieces - 1), course.anywhere(), random);
+    const auto piece = [&] {
+      const Eigen::Vector2d at = course.anywhere();
+      return draw_piece(random.integer(0, kPieces - 1), at, random);
+    };
+    Thing thing = shelf_now ? shelf_at_wall(course) : piece();
     const bool is_table = thing.kind == "table";
     if (course.place(std::move(thing), !shelf_now && tries < 500) && is_table && random.chance(0.5))
       add_chair_to_table(course);
@@ -111,8 +124,8 @@ void add_what_is_passed(Course& course) {
   Random& random = course.random();
   for (int i = random.integer(1, 2); i > 0; --i) {
     const Eigen::Vector2d at = course.on_the_way(0.1);
-    course.add(newspaper({at.x(), at.y(), random.uniform(-kPi, kPi), 0, random.seed()}, random.uniform(0.4, 0.8),
-                         random.uniform(0.3, 0.55)));
+    const auto [length, width] = random.from_last({{0.4, 0.8}, {0.3, 0.55}});
+    course.add(newspaper({at.x(), at.y(), random.uniform(-kPi, kPi), 0, random.seed()}, length, width));
   }
   for (int i = random.integer(0, 2); i > 0; --i) {
     const Eigen::Vector2d at = course.on_the_way(0.1);

@@ -1,7 +1,9 @@
 // Random numbers that are the same on every machine and with every standard library: splitmix64 (Steele, Lea, Flood 2014).
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 
@@ -21,6 +23,21 @@ class Random {
 
   double uniform(double low, double high) {
     return low + (high - low) * (static_cast<double>(next() >> 11) * 0x1p-53);
+  }
+
+  struct Range {
+    double low;
+    double high;
+  };
+
+  // One of each range, the last range first. For the arguments of one call, whose order is else the compiler's choice: a world would
+  // not be the same on every processor.
+  template <std::size_t count>
+  std::array<double, count> from_last(const Range (&ranges)[count]) {
+    std::array<double, count> drawn{};
+    for (std::size_t i = count; i-- > 0;)
+      drawn[i] = uniform(ranges[i].low, ranges[i].high);
+    return drawn;
   }
 
   // low..high, both included.

@@ -188,8 +188,10 @@ bool furnish_indoor(World& world, Random& random) {
   }
   furnish_rooms(course);
   if (random.chance(1 / 3.0)) {
-    if (const auto walk = course.crossing_walk())
-      course.add(walking_person(*walk, random.uniform(1.6, 1.85), random.seed()));
+    if (const auto walk = course.crossing_walk()) {
+      const std::uint32_t seed = random.seed();
+      course.add(walking_person(*walk, random.uniform(1.6, 1.85), seed));
+    }
   }
   add_what_is_passed(course);
   return course.density() >= kLeastDensity && course.on_the_straight_line() >= 2;

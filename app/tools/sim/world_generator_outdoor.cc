@@ -105,7 +105,8 @@ void add_ground(Course& course, const Rect& r, const Surface& way) {
   };
   tries(0.3, [&] { return add_ramp_over(course, r, seeded(kStone, random)); });
   tries(0.4, [&] {
-    const Rect rect = beside_the_way(random, r, random.uniform(3, 5), random.uniform(0.5, 0.9));
+    const auto [length, width] = random.from_last({{3, 5}, {0.5, 0.9}});
+    const Rect rect = beside_the_way(random, r, length, width);
     if (!course.reserve(rect)) return false;
     add_kerb(ground, rect, 0.12, seeded(kStone, random));
     return true;
@@ -113,7 +114,8 @@ void add_ground(Course& course, const Rect& r, const Surface& way) {
   tries(0.2, [&] {
     const Rect rect = beside_the_way(random, r, random.uniform(1.5, 2.2), 1.1);
     if (!course.reserve(rect)) return false;
-    add_stairs(ground, rect, random.chance(0.5) ? Towards::east : Towards::west, 5, 0.16, seeded(kStone, random));
+    const Surface stone = seeded(kStone, random);
+    add_stairs(ground, rect, random.chance(0.5) ? Towards::east : Towards::west, 5, 0.16, stone);
     return true;
   });
   for (int i = 0; i < 2; ++i) {
@@ -122,7 +124,8 @@ void add_ground(Course& course, const Rect& r, const Surface& way) {
       const double y = random.uniform(r.y0 + 1, r.y1 - 1);
       const Rect rect{x, y, x + random.uniform(0.5, 0.8), y + random.uniform(0.5, 0.8)};
       if (!course.reserve(rect)) return false;
-      add_pothole(ground, rect, random.uniform(0.15, 0.3), seeded(way, random));
+      const Surface surface = seeded(way, random);
+      add_pothole(ground, rect, random.uniform(0.15, 0.3), surface);
       return true;
     });
   }
@@ -133,21 +136,33 @@ Thing draw_piece(int which, const Eigen::Vector2d& at, Random& random) {
   switch (which) {
     case 0:
     case 1:
-    case 2:
-      return bush(spot, random.uniform(0.5, 1.0), random.uniform(0.4, 1.1));
+    case 2: {
+      const auto d = random.from_last({{0.5, 1.0}, {0.4, 1.1}});
+      return bush(spot, d[0], d[1]);
+    }
     case 3:
-    case 4:
-      return rock(spot, random.uniform(0.35, 0.9), random.uniform(0.2, 0.6));
-    case 5:
-      return pole(spot, random.uniform(0.05, 0.12), random.uniform(1.0, 2.6));
-    case 6:
-      return crate(spot, random.uniform(0.4, 0.7), random.uniform(0.35, 0.6), random.uniform(0.25, 0.9));
-    case 7:
-      return box(spot, random.uniform(0.3, 0.6), random.uniform(0.3, 0.5), random.uniform(0.15, 0.6));
+    case 4: {
+      const auto d = random.from_last({{0.35, 0.9}, {0.2, 0.6}});
+      return rock(spot, d[0], d[1]);
+    }
+    case 5: {
+      const auto d = random.from_last({{0.05, 0.12}, {1.0, 2.6}});
+      return pole(spot, d[0], d[1]);
+    }
+    case 6: {
+      const auto d = random.from_last({{0.4, 0.7}, {0.35, 0.6}, {0.25, 0.9}});
+      return crate(spot, d[0], d[1], d[2]);
+    }
+    case 7: {
+      const auto d = random.from_last({{0.3, 0.6}, {0.3, 0.5}, {0.15, 0.6}});
+      return box(spot, d[0], d[1], d[2]);
+    }
     case 8:
       return bench(spot, random.uniform(1.2, 1.6));
-    default:
-      return tree(spot, random.uniform(0.15, 0.35), random.uniform(3.0, 4.0));
+    default: {
+      const auto d = random.from_last({{0.15, 0.35}, {3.0, 4.0}});
+      return tree(spot, d[0], d[1]);
+    }
   }
 }
 constexpr int kPieces = 10;
@@ -160,8 +175,10 @@ void furnish(Course& course) {
     if (course.place(draw_piece((first + 3 * done) % kPieces, course.on_the_way(0.3), random), false)) ++done;
   }
   const double enough = random.uniform(0.16, 0.2);
-  for (int tries = 0; tries < 1200 && course.density() < enough; ++tries)
-    course.place(draw_piece(random.integer(0, kPieces - 1), course.anywhere(), random), tries < 800);
+  for (int tries = 0; tries < 1200 && course.density() < enough; ++tries) {
+    const Eigen::Vector2d at = course.anywhere();
+    course.place(draw_piece(random.integer(0, kPieces - 1), at, random), tries < 800);
+  }
 }
 
 }  // namespace
@@ -188,8 +205,10 @@ bool furnish_outdoor(World& world, Random& random) {
   if (!course.begin(0.05)) return false;
   furnish(course);
   if (random.chance(0.4)) {
-    if (const auto walk = course.crossing_walk())
-      course.add(walking_person(*walk, random.uniform(1.6, 1.85), random.seed()));
+    if (const auto walk = course.crossing_walk()) {
+      const std::uint32_t seed = random.seed();
+      course.add(walking_person(*walk, random.uniform(1.6, 1.85), seed));
+    }
   }
   for (int i = random.integer(0, 2); i > 0; --i) {
     const Eigen::Vector2d at = course.on_the_way(0.2);

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "tests/support/emulated.h"
 #include "tests/support/loop_rig.h"
 
 namespace lakshya {
@@ -14,6 +15,13 @@ using test::RigCamera;
 
 constexpr double kLimitMs = 200;     // the promise
 constexpr double kOrphanedMs = 300;  // of drives that nobody reaches: their own program's
+
+class LoopFaults : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (is_emulated()) GTEST_SKIP() << "an emulated processor keeps no limit of time";
+  }
+};
 
 struct Fault {
   const char* what;
@@ -137,7 +145,7 @@ bool inject(LoopRig& rig, const Fault& fault, bool is_second) {
   return ms <= fault.limit_ms;
 }
 
-TEST(LoopFaults, EachStopsTheWheelsInTimeAndEndsAsTheTableSays) {
+TEST_F(LoopFaults, EachStopsTheWheelsInTimeAndEndsAsTheTableSays) {
   LoopRig rig;
   rig.start();
   std::printf("| fault | event | wheels told zero after ms | promised ms | ends | driving again after s |\n");
@@ -177,17 +185,17 @@ void inject_once(LoopRig& rig, const char* what, Event event, double limit_ms, c
   std::printf("| %s | `%s` | %.0f | %.0f | %s | |\n", what, to_string(event), ms, limit_ms, end_of(event));
 }
 
-TEST(LoopFaults, TheCompassIsUnplugged) {
+TEST_F(LoopFaults, TheCompassIsUnplugged) {
   LoopRig rig;
   inject_once(rig, "compass is unplugged", Event::compass_gone, kLimitMs, [&] { rig.compass_terminal.unplug(); });
 }
 
-TEST(LoopFaults, TheDrivesAreUnplugged) {
+TEST_F(LoopFaults, TheDrivesAreUnplugged) {
   LoopRig rig;
   inject_once(rig, "drives are unplugged", Event::drive_gone, kOrphanedMs, [&] { rig.drive_terminal.unplug(); });
 }
 
-TEST(LoopFaults, APlanGetsTooOld) {
+TEST_F(LoopFaults, APlanGetsTooOld) {
   LoopRig rig([](VehicleConfig& c) {
     c.safety.perception_s = 10;
     c.safety.plan_age_s = 0.15;
@@ -195,7 +203,7 @@ TEST(LoopFaults, APlanGetsTooOld) {
   inject_once(rig, "no new plan comes", Event::plan_old, kLimitMs, [] { test::rig_perception_stalls = true; });
 }
 
-TEST(LoopFaults, TheProgramIsAskedToEnd) {
+TEST_F(LoopFaults, TheProgramIsAskedToEnd) {
   LoopRig rig;
   inject_once(rig, "program is asked to end", Event::terminate, kLimitMs,
               [&] { rig.machinery->exchange().terminate = true; });
@@ -231,7 +239,7 @@ void degrade(LoopRig& rig, const std::function<void()>& begin, const std::functi
   rig.end();
 }
 
-TEST(LoopFaults, AWatchdogThatCannotBeKickedSlowsDown) {
+TEST_F(LoopFaults, AWatchdogThatCannotBeKickedSlowsDown) {
   BrokenWatchdog watchdog;
   LoopRig rig;
   rig.hooks.watchdogs = {&watchdog};
@@ -239,14 +247,14 @@ TEST(LoopFaults, AWatchdogThatCannotBeKickedSlowsDown) {
       rig, [&] { watchdog.broken = true; }, [&] { watchdog.broken = false; });
 }
 
-TEST(LoopFaults, ALostRecordingSlowsDownWhereItMayBeLost) {
+TEST_F(LoopFaults, ALostRecordingSlowsDownWhereItMayBeLost) {
   LoopRig rig([](VehicleConfig& c) { c.safety.recording_failed = "go"; });
   std::atomic<bool>& failed = rig.machinery->exchange().recording_failed;
   degrade(
       rig, [&] { failed = true; }, [&] { failed = false; });
 }
 
-TEST(LoopFaults, TornPairsSlowDown) {
+TEST_F(LoopFaults, TornPairsSlowDown) {
   LoopRig rig([](VehicleConfig& c) {
     c.safety.camera_silent_s = 5;
     c.safety.plan_age_s = 5;
