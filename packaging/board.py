@@ -87,7 +87,7 @@ KEYS = {
 }
 GROUPS = sorted({key.split(".")[0] for key in KEYS if "." in key})
 # What an image cannot be built without.
-IMAGE_KEYS = ("kernel.package", "kernel.modules", "boot.loader", "boot.console", "image.table", "image.boot_mib",
+IMAGE_KEYS = ("kernel.package", "kernel.modules", "boot.loader", "boot.package", "boot.console", "image.table", "image.boot_mib",
               "image.data_mib", "watchdog.module", "watchdog.seconds")
 TRIPLETS = {"amd64": "x86_64-linux-gnu", "arm64": "aarch64-linux-gnu", "armhf": "arm-linux-gnueabihf"}
 

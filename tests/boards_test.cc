@@ -90,5 +90,44 @@ TEST_F(BoardsTest, RefusesWhatIsNoBoardAtAll) {
   EXPECT_EQ(refused("title: [\n").substr(0, 27), "board.yaml:2: broken YAML: ");
 }
 
+// Before anything is downloaded or written.
+TEST_F(BoardsTest, ImagesThatCannotBeBuiltAreRefused) {
+  const auto refused_image = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), root_ + "/packaging/image/build.py");
+    words.insert(words.end(), {"--firmware-program", "none", "--sysroot", "none"});
+    const Outcome outcome = run_command(words);
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_EQ(refused_image({"rpi4"}).substr(0, 38), "image: rpi4: boot.loader raspberry-pi:");
+  EXPECT_NE(refused_image({"rpi9"}).find("boards/rpi9/board.yaml"), std::string::npos);
+  EXPECT_EQ(refused_image({"qemu-arm64", "--update-key", "/none.sec"}).substr(0, 43),
+            "image: --update-key: /none.sec: not there (");
+  EXPECT_EQ(refused_image({"qemu-arm64", "--overlay", "/none"}), "image: --overlay: /none: no folder\n");
+  EXPECT_EQ(refused_image({"qemu-arm64", "--version", "new"}),
+            "image: --version: new is not numbers with dots between\n");
+}
+
+TEST_F(BoardsTest, WhatMustNotBeOverwrittenIsNot) {
+  const TempFolder folder;
+  std::ofstream(folder.path("lakshya-1-toy.img.zst")) << "";
+  std::ofstream(folder.path("lakshya-1-toy.bmap"))
+      << "<bmap><ImageSize>4096</ImageSize><BlockSize>4096</BlockSize><BlockMap><Range "
+         "chksum='x'>0</Range></BlockMap></bmap>";
+  const auto refused_disk = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {root_ + "/packaging/image/flash.py", "toy", "--images", folder.path("")});
+    const Outcome outcome = run_command(words);
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_EQ(refused_disk({"/dev/no-such-disk"}), "flash: /dev/no-such-disk: no such device (lsblk lists them)\n");
+  EXPECT_EQ(refused_disk({"/dev/null", "--yes"}), "flash: /dev/null: neither a disk nor a file\n");
+  std::ofstream(folder.path("mine")) << "precious";
+  EXPECT_NE(
+      refused_disk({folder.path("mine"), "--yes", "--inject", folder.path("none.yaml")}).find("none.yaml: no file"),
+      std::string::npos);
+  EXPECT_EQ(bytes_of(folder.path("mine")), "precious");
+}
+
 }  // namespace
 }  // namespace lakshya

@@ -127,14 +127,26 @@ def sizes(files, root):
     return "\n".join(lines) + "\n"
 
 
-def build(options, work, out):
+def check(options):
+    """The board's settings. ImageError for whatever can be known before anything is fetched or removed."""
     settings = board.of(options.board)
+    if settings.get("boot.loader") != "systemd-boot":
+        raise ImageError(f"{options.board}: boot.loader {settings.get('boot.loader', 'is not given')}: images with it cannot be built yet "
+                         "(boards with systemd-boot: docs/image.md)")
+    if options.rt and "kernel.rt_package" not in settings:
+        raise ImageError(f"--rt: boards/{options.board}/board.yaml names no kernel.rt_package")
     if options.update_key:
         bundle.public_key(options.update_key)
+    if options.overlay and not os.path.isdir(options.overlay):
+        raise ImageError(f"--overlay: {options.overlay}: no folder")
+    if options.version and not re.fullmatch(r"[0-9]+(\.[0-9]+)*", options.version):
+        raise ImageError(f"--version: {options.version} is not numbers with dots between")
+    return settings
+
+
+def build(options, settings, work, out):
     version, when = version_and_time()
     version = options.version or version
-    if not re.fullmatch(r"[0-9]+(\.[0-9]+)*", version):
-        raise ImageError(f"--version: {version} is not numbers with dots between")
     name = f"lakshya-{version}-{options.board}"
     say(f"{name}: Debian's packages for {settings['architecture']}")
     packages = Packages(settings["architecture"], ROOT / "build/packages" / settings["architecture"])
@@ -144,8 +156,6 @@ def build(options, work, out):
     root = work / "root"
     build_root(root, settings, packages, kernel, version, options)
     memory = initramfs.pack(root, work / "initramfs.zst", when)
-    if settings["boot.loader"] != "systemd-boot":
-        raise ImageError(f"{options.board}: boot.loader {settings['boot.loader']}: not built yet")
     efi = EFI_NAMES[settings["architecture"]]
     slot = work / "slot"
     uki.build(slot, prefix=board.TRIPLETS[settings["architecture"]] + "-",
@@ -192,11 +202,12 @@ def main():
     parser.add_argument("--sysroot", required=True, help=argparse.SUPPRESS)
     options = parser.parse_args()
     out = pathlib.Path(options.out).resolve() if options.out else ROOT / "out" / options.board
-    work = ROOT / "build/image" / options.board
-    shutil.rmtree(work, ignore_errors=True)
-    work.mkdir(parents=True)
     try:
-        build(options, work, out)
+        settings = check(options)
+        work = ROOT / "build/image" / options.board
+        shutil.rmtree(work, ignore_errors=True)
+        work.mkdir(parents=True)
+        build(options, settings, work, out)
     except (ImageError, board.BoardError, elf_closure.ClosureError) as error:
         print(f"image: {error}", file=sys.stderr)
         return 1
